@@ -120,7 +120,7 @@ fi
 # What it costs.
 image mps2 $m4 count
 image nrf52840 $m4 loop exact
-gcc -O2 -fPIC -shared -o "$work/icount.so" ../tests/compare/supervisor/firmware/icount.c
+gcc -O2 -fPIC -shared -o "$work/icount.so" ../tests/evidence/compare/supervisor/firmware/icount.c
 count=$(built mps2 $m4 count)
 mark=$(arm-none-eabi-nm "$count" | awk '$3 == "icount_mark" { print "0x" $1 }')
 timeout 120 qemu-system-arm -M mps2-an386 -display none -monitor none -serial none \

@@ -1,5 +1,5 @@
-//! What the tests and benchmarks across the crates share: seeded problem instances, and the patrol
-//! as one; the token game by the book. What core's own tests need too stands there.
+//! The common parts of tests and benchmarks across the crates: seeded problem instances, and the
+//! patrol as one; the token game by the book. Parts that core's own tests need too stand there.
 
 #[path = "../core/tests/common/draw.rs"]
 pub mod draw;
@@ -23,7 +23,7 @@ pub fn with_patrol<R>(story: impl FnOnce(&Problem<'_, 2>) -> R) -> R {
     let mut candidates: Vec<Candidate<2>> = vec![EMPTY; candidates];
     let mut lists: Vec<&[Candidate<2>]> = vec![&[]; lists];
     let first = ACTIVITIES[0].whole(&ACTIVITIES[0].alternatives[0]);
-    let activities = remaining(&ACTIVITIES, first, AVAILABLE, &mut candidates, &mut lists)
+    let activities = remaining(&ACTIVITIES, Some(first), AVAILABLE, &mut candidates, &mut lists)
         .expect("every activity of the patrol has candidates");
     story(&Problem::new(activities, LIMITS, ORDER).expect("the patrol is a problem"))
 }

@@ -1,4 +1,5 @@
-//! What other programs need of this one: tables for firmware, schemas, completions, manual pages.
+//! Files that other programs need of this one: tables for firmware, schemas, completions, manual
+//! pages.
 
 use crate::answers::assign::AssignAnswer;
 use crate::answers::campaign::CampaignAnswer;
@@ -17,7 +18,7 @@ use crate::exit::{Exit, Failure};
 use crate::file_schemas;
 use crate::mission;
 use crate::output::Screen;
-use crate::run::Team;
+use crate::team::Team;
 use clap::CommandFactory;
 use clap::builder::PossibleValuesParser;
 use clap_complete::Shell;
@@ -31,14 +32,15 @@ use serde_json::Value;
 
 /// `cotama table`: the tables of a mission as Rust source.
 pub(crate) fn table(args: &MissionArg) -> Result<Exit, Failure> {
-    let loaded = mission::load(&args.mission)?;
-    Screen::raw(loaded.mission.scenario().to_rust(&loaded.mission.name).as_bytes())?;
+    let mission = mission::load(&args.mission)?;
+    Screen::raw(mission.scenario().to_rust(&mission.name).as_bytes())?;
     Ok(Exit::Success)
 }
 
 /// `cotama schema`: the JSON schema of an answer, or of a file that users write.
 pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
-    // Of what is written, not of what could be read: a field that is always written is required.
+    // The schema is of written answers, not of readable ones: a field that is always written is
+    // required.
     let settings = SchemaSettings::draft2020_12().for_serialize();
     let schemas = settings.with_transform(RecursiveTransform(in_one_line)).into_generator();
     let schema = match args.of {
@@ -86,7 +88,7 @@ fn in_one_line(schema: &mut Schema) {
 pub(crate) fn completions(args: &CompletionsArgs) -> Result<Exit, Failure> {
     let mut script = Vec::new();
     let program = Cli::command();
-    // Where nothing that is known begins so, bash looks among files; other shells would not.
+    // Bash looks among files if no known word begins so; other shells would not.
     let mut program = if args.shell == Shell::Bash { named(program) } else { program };
     clap_complete::generate(args.shell, &mut program, "cotama", &mut script);
     Screen::raw(&script)?;

@@ -8,6 +8,7 @@ use crate::exit::{Exit, Failure};
 use crate::infeasible;
 use crate::input;
 use crate::kind::{self, Kind};
+use crate::mission;
 use crate::output::Screen;
 use crate::render;
 use crate::solve::{Method, Verdict, solve};
@@ -18,6 +19,9 @@ use instance::Instance;
 
 /// Solves one allocation problem.
 pub(crate) fn allocate(args: &AllocateArgs, screen: &Screen) -> Result<Exit, Failure> {
+    let wanted = (args.objective != Wanted::Quality).then_some(args.objective);
+    mission::pursued(wanted, Some(args.allocator))?;
+    mission::searched(args.allocator == AllocatorName::Panorama, args.steps)?;
     let (limit, wanted) = (input::INSTANCE_BYTES, [Kind::Instance]);
     let text = kind::text(&args.instance, "an instance", limit, &wanted)?;
     let instance = Instance::parse(&args.instance, &text)?;

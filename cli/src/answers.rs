@@ -1,4 +1,4 @@
-//! The answers in JSON: types that are written, and from which the schemas in `schemas/` are made.
+//! The answers in JSON: types that are written, and from which `schemas/cotama.json` is made.
 
 pub(crate) mod assign;
 pub(crate) mod campaign;
@@ -33,13 +33,13 @@ pub(crate) struct ListAnswer {
 /// Something that comes with the program.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct Listed {
-    /// Of a family of nets with `:N` in place of the number.
+    /// Name; of a family of nets with `:N` in place of the number.
     pub(crate) name: String,
-    /// What it is, in one line.
+    /// Description in one line.
     pub(crate) description: String,
 }
 
-/// What is known of a plan.
+/// The knowledge of a plan.
 #[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Status {
@@ -47,7 +47,7 @@ pub(crate) enum Status {
     Optimal,
     /// There is a plan; a better one may exist.
     Feasible,
-    /// It is proven that there is no plan.
+    /// No plan exists, which is proven.
     Infeasible,
     /// No plan was found, but one may exist.
     Unknown,
@@ -62,12 +62,17 @@ pub(crate) struct PlanAnswer {
     pub(crate) mission: String,
     /// The activities, in sequence.
     pub(crate) activities: Vec<ActivityRow>,
+    /// How fast the robot can be.
+    pub(crate) speed_robot_mm_s: u64,
+    /// How fast it may be so that an impact hurts nobody: what follows from its mass and from the
+    /// mission's `impact_energy_max_mj`.
+    pub(crate) speed_harmless_mm_s: u64,
     /// How many plans there are, within the limits or not, as a decimal number; `more than 2^128`
     /// beyond that.
     pub(crate) combinations: String,
-    /// What the plan was chosen for: `paper`, `quality`, `min-energy` or `front`.
+    /// Objective of the plan: `paper`, `quality`, `min-energy` or `front`.
     pub(crate) objective: &'static str,
-    /// Who found the plan: `panorama` or `exact`.
+    /// Allocator that found the plan: `panorama` or `exact`.
     pub(crate) allocator: Option<&'static str>,
     pub(crate) status: Status,
     /// One row an activity; empty without a plan.
@@ -156,7 +161,7 @@ pub(crate) struct Reason {
     pub(crate) gap: Option<u64>,
     /// The activities that need the most, the heaviest first.
     pub(crate) heaviest: Vec<Heavy>,
-    /// What would make a plan possible, the smallest change first.
+    /// Changes that would make a plan possible, the smallest one first.
     pub(crate) relaxations: Vec<Relaxation>,
 }
 
@@ -164,9 +169,9 @@ pub(crate) struct Reason {
 #[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
 pub(crate) struct Heavy {
     pub(crate) activity: String,
-    /// What it needs on the axis of the reason, in ms or mJ, in the plan that needs least there.
+    /// Cost on the axis of the reason, in ms or mJ, in the plan that needs least there.
     pub(crate) cost: u64,
-    /// Its part of the total, in thousandths.
+    /// Share of the total, in thousandths.
     pub(crate) permille: u16,
     /// The same in words.
     pub(crate) text: String,
@@ -181,7 +186,7 @@ pub(crate) struct Relaxation {
     pub(crate) text: String,
 }
 
-/// What to change.
+/// The change.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub(crate) enum Change {
@@ -264,13 +269,64 @@ pub(crate) struct RunAnswer {
 pub(crate) struct ReplayAnswer {
     #[schemars(extend("const" = "cotama/replay/1"))]
     pub(crate) schema: &'static str,
-    /// Whether the run was the same again, in every record.
-    pub(crate) identical: bool,
+    /// Whether the run was the same again: in every record of a trace, or in all that a failure
+    /// records of its end; none where nothing is recorded.
+    pub(crate) identical: Option<bool>,
+    /// Whether the failure that a file of faults records comes back: its requirement is broken
+    /// again, in the same run; none for what records no failure.
+    pub(crate) returns: Option<bool>,
+    /// Planner, in words.
+    pub(crate) planner: String,
+    /// The first record of a trace that differs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) difference: Option<RecordDifference>,
+    /// The failure that a file of faults records, and what became of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) failure: Option<RecordedFailure>,
     #[serde(flatten)]
     pub(crate) run: RunBody,
 }
 
-/// What a run comes to.
+/// A record of a trace that is not the one of now.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct RecordDifference {
+    /// Line of the record, from 1.
+    pub(crate) line: u64,
+    /// Kind of the record, as `sample`; `header` for the first line.
+    pub(crate) record: String,
+    /// The field; none where there is no such record on one side.
+    pub(crate) field: Option<String>,
+    /// Stored value, as JSON.
+    pub(crate) stored: Option<String>,
+    /// Present value, as JSON.
+    pub(crate) now: Option<String>,
+}
+
+/// A failure that was run again.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct RecordedFailure {
+    /// The requirement that was broken.
+    pub(crate) requirement: String,
+    /// Whether it is broken again.
+    pub(crate) broken: bool,
+    /// How the run ended, in words.
+    pub(crate) expected: String,
+    /// How it ends now.
+    pub(crate) found: String,
+    /// In what the ends differ.
+    pub(crate) differences: Vec<EndDifference>,
+}
+
+/// Something that was recorded of an end, and is not so now.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct EndDifference {
+    /// Key in the file.
+    pub(crate) key: String,
+    pub(crate) expected: String,
+    pub(crate) found: String,
+}
+
+/// The result of a run.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct RunBody {
     /// The name of the mission.
@@ -295,9 +351,9 @@ pub(crate) struct RunBody {
     pub(crate) energy_mj: u64,
     /// How far the robot came.
     pub(crate) x_mm: u64,
-    /// What happened to the robot.
+    /// Events of the robot.
     pub(crate) events: Vec<EventRow>,
-    /// What the supervisors did; of a supervised mission alone.
+    /// Actions of the supervisors; of a supervised mission alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) supervised: Option<supervised::Supervised>,
     /// The path of the report.

@@ -31,7 +31,7 @@ pub(crate) use team::TeamArgs;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-/// Robot missions: split into activities, planned within their limits, run under faults, explained.
+/// Supervisors and missions of robots: checked, planned within limits, run under faults, explained
 #[derive(Debug, Parser)]
 #[command(
     name = "cotama",
@@ -71,7 +71,7 @@ pub(crate) enum Color {
     Never,
 }
 
-/// What to do.
+/// The command.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Lists what comes with the program
@@ -84,7 +84,9 @@ Examples:
     ///
     /// Objectives are cut at the borders of zones into activities. Each activity has candidates:
     /// one option for each of its tasks, as far as the constraints of the zones allow. A plan takes
-    /// one candidate for each activity, so that duration and energy stay within their limits.
+    /// one candidate for each activity, so that duration and energy stay within their limits. It is
+    /// found by a complete search for the most quality, or for the least energy, or by the rule of
+    /// PANORAMA, a method to plan what a robot uses (Lambert et al. 2024), as the mission says.
     #[command(after_long_help = "\
 Examples:
   $ cotama plan patrol
@@ -96,9 +98,10 @@ Examples:
     ///
     /// The run is simulated and deterministic: the same mission, faults and seed give the same run.
     /// Margins (limit less used less planned) are watched; when one falls below zero, or planned
-    /// hardware fails, the rest of the mission is planned anew. A mission with `[supervision]` is
-    /// driven by its supervisors, who find, judge and answer each failure, and ask the operator. The
-    /// scenarios `fleet` and `service` are teams of such robots, which bid for tasks.
+    /// hardware fails, the rest of the mission is planned anew: plan 0 is the first one, plan 1
+    /// that of the first replan. A mission with `[supervision]` is driven by supervisors (tables
+    /// that react to events), who find, judge and answer each failure, and ask the operator. The
+    /// scenarios `fleet` and `service`, and files of teams, are such robots that bid for tasks.
     #[command(after_long_help = "\
 Examples:
   $ cotama run patrol
@@ -196,12 +199,14 @@ Examples:
     /// why, and what was allowed there.
     #[command(after_long_help = conform::CONFORM_EXAMPLES)]
     Conform(ConformArgs),
-    /// Shows what can fail on the delivery robot, how it is seen, what is done, and what looks
-    /// alike
+    /// Shows what can fail on the delivery robot, or on one of your own: how it is seen, what is
+    /// done, how critical it is, and what looks alike
     ///
-    /// The failure modes, effects and criticality analysis (FMECA) of COTAMA's delivery robot, from
-    /// the same typed data that its diagnosis and its decisions run on. The diagrams are of causes
-    /// and effects (Ishikawa), one a function.
+    /// The failure modes, effects and criticality analysis (FMECA) of the delivery robot, from the
+    /// same typed data that its diagnosis and its decisions run on; or of a file in TOML or CSV.
+    /// The diagrams are of causes and effects (Ishikawa), one a function. The delivery robot is
+    /// that of COTAMA (contextual task management), a control architecture: Durand et al., TAROS
+    /// 2010.
     #[command(after_long_help = fmeca::FMECA_EXAMPLES)]
     Fmeca(FmecaArgs),
     /// Runs a mission many times under drawn faults, and hands each failure back as a small file
@@ -211,7 +216,7 @@ Examples:
     /// Neither the number of threads nor the split into shards changes a byte of the results.
     #[command(after_long_help = campaign::CAMPAIGN_EXAMPLES)]
     Campaign(CampaignArgs),
-    /// Begins a mission, a supervisor or a system of supervisors of your own
+    /// Begins a mission, an FMECA, a supervisor, a system of supervisors or a board of your own
     ///
     /// What is written works as it is, and says what each part is for. Nothing is replaced.
     #[command(after_long_help = new::NEW_EXAMPLES)]
@@ -254,14 +259,14 @@ Examples:
 }
 
 /// A mission.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub(crate) struct MissionArg {
     /// The name of a mission that comes with the program, the path of a mission file, or `-`
     pub(crate) mission: String,
 }
 
 /// One JSON object in place of words.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub(crate) struct Json {
     /// Prints the answer as one JSON object
     #[arg(long)]

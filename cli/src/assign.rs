@@ -1,7 +1,7 @@
 //! `cotama assign`: which robots do which tasks.
 
 use crate::answers::assign::{
-    AssignAnswer, AssignStatus, Certificate, DoneRow, GreedyRow, PlanRow, WhyInfeasible,
+    AssignAnswer, AssignStatus, Certificate, DoneRow, GreedyRow, ProofRow, WhyInfeasible,
 };
 use crate::args::AssignArgs;
 use crate::exit::{Exit, Failure};
@@ -10,18 +10,19 @@ use crate::kind::{self, Kind};
 use crate::names::quoted;
 use crate::output::Screen;
 use crate::render;
+use crate::team::{self, Chosen};
+use cotama_core::team::Team;
 use cotama_models::team::instance::{
     Assignment, Instance, InstancePlan, PlanProof, Proof, Verdict,
 };
+use cotama_models::team::scenario::Scenario;
 
 /// Solves one instance.
 pub(crate) fn assign(args: &AssignArgs, screen: &Screen) -> Result<Exit, Failure> {
-    let what = "a team with its tasks";
-    let text = kind::text(&args.instance, what, input::INSTANCE_BYTES, &[Kind::Team])?;
-    let instance = Instance::parse(input::name(&args.instance), &text)?;
-    drop(text);
+    let instance = instance(&args.instance)?;
+    let greedy = args.greedy.then(|| greedy(&instance)).transpose()?;
     let found = instance.solve(args.steps).map_err(|error| Failure::new(error.to_string()))?;
-    let answer = answer(&instance, &found, args.greedy);
+    let answer = answer(&instance, &found, greedy);
     if args.json.json {
         Screen::json(&answer)?;
     } else {
@@ -39,7 +40,39 @@ pub(crate) fn assign(args: &AssignArgs, screen: &Screen) -> Result<Exit, Failure
     })
 }
 
-fn answer(instance: &Instance, found: &Assignment, greedy: bool) -> AssignAnswer {
+/// The instance of a file; of a team at work all its tasks as it starts.
+fn instance(path: &str) -> Result<Instance, Failure> {
+    if let Some(team) = team::Team::named(path) {
+        return Ok(Instance::from(&Chosen::Known(team).scenario()));
+    }
+    let what = "a team with its tasks";
+    let wanted = [Kind::Team, Kind::TeamAtWork];
+    let text = kind::text(path, what, input::INSTANCE_BYTES, &wanted)?;
+    let name = input::name(path);
+    if kind::is_of(&text, Kind::TeamAtWork) {
+        return Ok(Instance::from(&Scenario::parse(name, &text)?));
+    }
+    Ok(Instance::parse(name, &text)?)
+}
+
+/// Returns the result of greedy rounds.
+fn greedy(instance: &Instance) -> Result<GreedyRow, Failure> {
+    let robots = instance.robots.len();
+    let rounds = instance.greedy().ok_or_else(|| {
+        let message = if robots > Team::MAX_ROBOTS {
+            format!(
+                "--greedy: rounds are for {} robots at most, and these are {robots}",
+                Team::MAX_ROBOTS
+            )
+        } else {
+            "--greedy: the costs of this team are too large for rounds".to_owned()
+        };
+        Failure::new(message).help("leave --greedy out: the least cost is found without it")
+    })?;
+    Ok(GreedyRow { cost: rounds.cost, unserved: rounds.unserved, rounds: rounds.rounds })
+}
+
+fn answer(instance: &Instance, found: &Assignment, greedy: Option<GreedyRow>) -> AssignAnswer {
     let robots = |list: &[usize]| names(&instance.robots, list);
     let done = found.done.iter().filter_map(|it| {
         let task = instance.tasks.get(it.task)?;
@@ -61,7 +94,6 @@ fn answer(instance: &Instance, found: &Assignment, greedy: bool) -> AssignAnswer
             (AssignStatus::Infeasible, Some(why))
         }
     };
-    let greedy = if greedy { instance.greedy() } else { None };
     AssignAnswer {
         schema: "cotama/assign/1",
         name: instance.name.clone(),
@@ -72,11 +104,7 @@ fn answer(instance: &Instance, found: &Assignment, greedy: bool) -> AssignAnswer
         assignment: done.collect(),
         why_infeasible,
         certificate: certificate(instance, &found.proof),
-        greedy: greedy.map(|it| GreedyRow {
-            cost: it.cost,
-            unserved: it.unserved,
-            rounds: it.rounds,
-        }),
+        greedy,
     }
 }
 
@@ -94,20 +122,20 @@ fn certificate(instance: &Instance, proof: &Proof) -> Certificate {
     }
 }
 
-fn row(instance: &Instance, plan: &InstancePlan, proof: &PlanProof) -> PlanRow {
+fn row(instance: &Instance, plan: &InstancePlan, proof: &PlanProof) -> ProofRow {
     let conflict = |roles: &[usize], robots: &[usize]| {
         (Some(names(&plan.roles, roles)), Some(names(&instance.robots, robots)))
     };
-    let row = PlanRow { plan: plan.name.clone(), cost: proof.cost(), ..PlanRow::default() };
+    let row = ProofRow { plan: plan.name.clone(), cost: proof.cost(), ..ProofRow::default() };
     match proof {
-        PlanProof::Prices { prices, .. } => PlanRow { robot_prices: Some(prices.clone()), ..row },
+        PlanProof::Prices { prices, .. } => ProofRow { robot_prices: Some(prices.clone()), ..row },
         PlanProof::Threshold { largest, roles, robots, .. } => {
             let (roles, robots) = conflict(roles, robots);
-            PlanRow { threshold: Some(*largest), roles, robots, ..row }
+            ProofRow { threshold: Some(*largest), roles, robots, ..row }
         }
         PlanProof::Impossible { roles, robots } => {
             let (roles, robots) = conflict(roles, robots);
-            PlanRow { roles, robots, ..row }
+            ProofRow { roles, robots, ..row }
         }
     }
 }

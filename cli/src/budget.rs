@@ -1,10 +1,10 @@
-//! What a search may use, from the command line.
+//! The budget of a search, from the command line.
 
 use crate::args::BudgetArgs;
 use cotama_verification::limits::Limits;
 use std::time::{Duration, Instant};
 
-/// What a search may use, from now on.
+/// The budget of a search, from now on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Budget {
     pub(crate) jobs: usize,
@@ -46,7 +46,8 @@ impl Shares {
         Budget { limits: Limits { deadline, ..self.budget.limits }, ..self.budget }
     }
 
-    /// Of so much time what the next question may take; all of it if it is the last.
+    /// Returns the part of the time left that the next question may take; all of it if it is the
+    /// last.
     fn part(&self, left: Duration) -> Duration {
         left / u32::try_from(self.questions.max(1)).unwrap_or(u32::MAX)
     }
@@ -73,7 +74,7 @@ mod tests {
 
     /// 120 s for four: the second takes no time, and its 30 s are for the third and the fourth.
     #[test]
-    fn what_a_question_leaves_of_its_time_is_for_those_after_it_in_equal_parts() {
+    fn time_left_by_a_question_is_shared_equally_by_the_later_ones() {
         let args = BudgetArgs { max_states: None, max_memory: 3, max_seconds: None, jobs: 2 };
         let mut shares = Budget::start(args).among(4);
         let mut left = 120;

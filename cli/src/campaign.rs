@@ -1,26 +1,35 @@
 //! `cotama campaign`: many missions under drawn faults, and what comes of them.
+#![allow(clippy::cast_precision_loss)] // numbers of runs need no more than 52 bits
 
 use crate::answers::campaign::{
-    CampaignAnswer, DecisionRow, FailureRow, Measured, Outcomes, PolicyRow, RequirementRow,
+    CampaignAnswer, DecisionRow, FailureRow, Measured, Outcomes, RequirementRow,
 };
 use crate::args::{CampaignArgs, PolicyName};
 use crate::exit::{Exit, Failure};
-use crate::mission::{self, Loaded};
+use crate::mission;
 use crate::output::{self, Screen};
 use crate::render;
-use cotama_sim::campaign::compare::compare;
+use crate::render::style::NAME;
+use crate::team::Chosen;
+use asked::Test;
+use cotama_models::missions::Mission;
 use cotama_sim::campaign::findings::Findings;
-use cotama_sim::campaign::requirement::Requirement;
 use cotama_sim::campaign::results::{Header, Tally};
-use cotama_sim::campaign::run::{Campaign, Settings, Shard};
-use cotama_sim::campaign::space::Rates;
-use cotama_sim::campaign::statistics::{Decision, Interval, Sprt, okamoto_runs};
-use cotama_sim::campaign::subject::Subject;
+use cotama_sim::campaign::run::{Campaign, Line, Settings, Shard};
+use cotama_sim::campaign::statistics::{Decision, Interval};
+use cotama_sim::campaign::strategy::BLOCK;
+use cotama_sim::campaign::subject::{Policy, Subject};
+use cotama_sim::options::STEPS;
 use cotama_sim::report;
 use std::ops::ControlFlow;
 use std::path::Path;
 use store::Store;
 
+mod asked;
+mod compared;
+mod derived;
+mod junit;
+mod lines;
 mod merge;
 #[cfg(any(test, feature = "fuzz"))]
 pub(crate) mod mutants;
@@ -28,9 +37,13 @@ pub(crate) mod mutants;
 mod parquet;
 mod progress;
 mod store;
+mod sums;
 
 /// Runs a campaign, or puts the shards of one together.
 pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Failure> {
+    if let Some(path) = &args.junit {
+        output::place(path)?;
+    }
     if args.scenario == "merge" {
         return merge::merge(args, screen);
     }
@@ -38,102 +51,112 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
         let message = format!("`{}`: folders are for `merge`", folder.display());
         return Err(Failure::new(message).help("cotama campaign merge DIR... --out DIR"));
     }
-    let loaded = mission::load(&args.scenario)?;
-    let settings = settings(args, &loaded)?;
-    if args.compare {
-        return compared(args, &loaded, &settings, screen);
+    if args.policy() == PolicyName::Exact && (args.objective.is_some() || args.allocator.is_some())
+    {
+        let message = "--policy exact says who plans: it goes with neither --objective nor \
+                       --allocator";
+        return Err(Failure::new(message).help("--objective paper --allocator exact is the same"));
     }
-    let campaign = ready(&loaded, args.policy, settings)?;
+    if let Some(team) = Chosen::of(&args.scenario)? {
+        return of_team(args, &team, screen);
+    }
+    let mission = mission::load(&args.scenario)?;
+    if args.compare {
+        return compared::compared(args, &mission, screen);
+    }
+    let policy = args.policy_for(&mission)?;
+    let of = asked::Of::mission(&mission);
+    let campaign = ready(&mission, policy, asked::settings(args, of, mission.source())?)?;
     let shard = args.shard.unwrap_or(Shard::ALL);
-    let texts = (loaded.source.as_str(), loaded.text.as_str());
-    let header = Header::new(texts, &campaign.settings, args.policy.name(), shard);
-    let mut test = sequential(args)?;
-    let (mut tally, mut store) = (Tally::default(), None);
-    let mut done = 0;
+    let texts = (mission.source(), mission.text());
+    let usual = args.policy().policy(mission.supervisor().is_some(), STEPS);
+    let planner = policy.planner.filter(|it| *it != usual.of(&mission));
+    let header = Header::new(texts, &campaign.settings, args.policy().name(), shard);
+    conduct(args, &Header { planner, ..header }, &campaign, screen)
+}
+
+/// Runs a campaign over a team.
+fn of_team(args: &CampaignArgs, team: &Chosen, screen: &Screen) -> Result<Exit, Failure> {
+    let given = [
+        ("--compare", args.compare),
+        ("--policy", args.policy.is_some()),
+        ("--objective", args.objective.is_some()),
+        ("--allocator", args.allocator.is_some()),
+    ];
+    if let Some((option, _)) = given.into_iter().find(|it| it.1) {
+        let message = format!("{option} is for missions, and this is a team");
+        return Err(Failure::new(message).help("the file of a team says how its tasks are given"));
+    }
+    let source = args.scenario.as_str();
+    let settings = asked::settings(args, asked::Of::Team, source)?;
+    let subject = Subject::of_team(team.scenario(), None).named(source);
+    let campaign =
+        Campaign::new(subject, settings).map_err(|it| Failure::of(source, it.to_string()))?;
+    let texts = (source, team.text());
+    let shard = args.shard.unwrap_or(Shard::ALL);
+    let texts = (texts.0, texts.1.as_str());
+    let header = Header::new(texts, &campaign.settings, args.policy().name(), shard);
+    conduct(args, &header, &campaign, screen)
+}
+
+/// Runs what is not stored yet, and answers.
+fn conduct(
+    args: &CampaignArgs,
+    header: &Header,
+    campaign: &Campaign<'_>,
+    screen: &Screen,
+) -> Result<Exit, Failure> {
+    let shard = header.shard;
+    let mut test = Test::of(args, campaign)?;
+    let (mut tally, mut store, mut done) = (Tally::default(), None, 0);
     if let Some(folder) = &args.out {
-        let (opened, blocks) = Store::open(folder, &header, &mut |line, text| {
+        let again = |block| campaign.block(block);
+        let (opened, blocks) = Store::open(folder, header, &again, &mut |line, text| {
             tally.add(line, text);
-            test.as_mut().is_some_and(|it| it.add(!line.violated.is_empty()).is_some())
+            test.iter_mut().for_each(|it| it.add(!line.violated.is_empty()));
         })?;
+        derived::clear(folder)?;
         (store, done) = (Some(opened), blocks);
     }
     let wanted = shard.blocks(campaign.settings.runs).count();
     let progress = progress::Progress::new(campaign.settings.runs / shard.of);
     let mut failure = None;
-    let decided = |test: &Option<Sprt>| test.is_some_and(|it| it.decision().is_some());
-    if done < wanted && !decided(&test) {
+    if done < wanted && !test.is_some_and(|it| it.is_decided()) {
+        // A block that was begun is counted as a whole, so that it is kept as a whole.
         campaign.run(shard, done, jobs(args), &mut |lines| {
-            let mut text = String::new();
-            for line in &lines {
-                let Ok(json) = serde_json::to_string(line) else { continue };
-                tally.add(line, &json);
-                text.push_str(&json);
-                text.push('\n');
-                if test.as_mut().is_some_and(|it| it.add(!line.violated.is_empty()).is_some()) {
-                    break;
-                }
+            let block = lines.first().map_or(0, |it| it.run / BLOCK);
+            let texts: Vec<(Line, String)> = lines
+                .into_iter()
+                .filter_map(|it| serde_json::to_string(&it).ok().map(|text| (it, text)))
+                .collect();
+            for (line, text) in &texts {
+                tally.add(line, text);
+                test.iter_mut().for_each(|it| it.add(!line.violated.is_empty()));
             }
-            if let Some(Err(error)) = store.as_mut().map(|it| it.append(&text)) {
+            if let Some(Err(error)) = store.as_mut().map(|it| it.append(block, &texts)) {
                 failure = Some(error);
                 return ControlFlow::Break(());
             }
             progress.show(tally.runs, tally.failing);
-            if decided(&test) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            let over = test.is_some_and(|it| it.is_decided());
+            if over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
     }
     progress.clear();
     if let Some(failure) = failure {
         return Err(failure);
     }
-    let decision = test.map(|it| decision(&it, args));
-    let answer = finish(args, &header, &campaign, &tally, decision)?;
+    let decision = test.map(|it| decision(&it, args, &tally));
+    let answer = finish(args, header, campaign, &tally, decision)?;
     ended(args, &answer, screen)
 }
 
-/// What is drawn and asked.
-fn settings(args: &CampaignArgs, loaded: &Loaded) -> Result<Settings, Failure> {
-    let supervised = loaded.mission.supervisor().is_some();
-    let usual = Settings::new(supervised);
-    let for_supervised = args.require.iter().find(|it| it.needs_supervisors() && !supervised);
-    if let Some(it) = for_supervised {
-        let message = format!("`{it}` is about supervisors, and the mission has none");
-        return Err(Failure::of(&loaded.source, message).help("--require not-failed, say"));
-    }
-    if let Some(unknown) = args.require.iter().find(|it| !fires(it)) {
-        let message = format!("`{unknown}`: the supervisors have no such transition");
-        return Err(Failure::new(message).help("cotama simulate delivery lists them"));
-    }
-    if args.rates == Rates::Fmeca && !supervised {
-        let message = "--rates fmeca is for missions with supervisors: the FMECA is theirs";
-        return Err(Failure::of(&loaded.source, message));
-    }
-    let mut requirements = args.require.clone();
-    if requirements.is_empty() {
-        requirements = usual.requirements;
-    }
-    requirements.dedup();
-    let runs = args.within.map_or(args.runs, |it| okamoto_runs(it, args.confidence));
-    let (seed, strategy, rates, faults) = (args.seed, args.strategy, args.rates, args.per_run);
-    Ok(Settings { runs, seed, strategy, rates, faults, requirements })
-}
-
-/// Whether a transition that must not fire is one of the supervisors.
-fn fires(requirement: &Requirement) -> bool {
-    let Requirement::Never(name) = requirement else { return true };
-    let Some((net, transition)) = name.split_once('.') else { return false };
-    let components = cotama_models::cotama::recovering::SYSTEM.components;
-    // The global supervisor of a mission of one's own has transitions of its own.
-    net == "gs"
-        || components
-            .iter()
-            .any(|it| it.name == net && it.net.transitions.iter().any(|it| it.name == transition))
-}
-
-fn ready(loaded: &Loaded, policy: PolicyName, settings: Settings) -> Result<Campaign<'_>, Failure> {
-    let policy = policy.policy(loaded.mission.supervisor().is_some());
-    let subject = Subject::new(&loaded.mission, policy)
-        .map_err(|error| Failure::of(&loaded.source, error.to_string()))?;
-    Campaign::new(subject, settings).map_err(|error| Failure::of(&loaded.source, error.to_string()))
+fn ready(mission: &Mission, policy: Policy, settings: Settings) -> Result<Campaign<'_>, Failure> {
+    let subject = Subject::new(mission, policy)
+        .map_err(|error| Failure::of(mission.source(), error.to_string()))?;
+    let subject = mission::named(subject, mission.source());
+    Campaign::new(subject, settings)
+        .map_err(|error| Failure::of(mission.source(), error.to_string()))
 }
 
 fn jobs(args: &CampaignArgs) -> usize {
@@ -141,24 +164,21 @@ fn jobs(args: &CampaignArgs) -> usize {
     args.jobs.map_or_else(processors, |it| usize::try_from(it).unwrap_or(1))
 }
 
-/// From twice the probability on, but at most half way to 1.
-fn sequential(args: &CampaignArgs) -> Result<Option<Sprt>, Failure> {
-    let test = args.at_most.map(|low| Sprt::new(low, more_from(low), args.confidence));
-    test.transpose().map_err(|error| Failure::new(error.to_string()))
-}
-
-fn more_from(low: f64) -> f64 {
-    (2.0 * low).min(f64::midpoint(low, 1.0))
-}
-
-fn decision(test: &Sprt, args: &CampaignArgs) -> DecisionRow {
-    let (at_most, more_from) = test.between();
-    let verdict = match test.decision() {
-        Some(Decision::Small) => "at_most",
-        Some(Decision::Large) => "more",
-        None => "undecided",
-    };
-    DecisionRow { verdict, at_most, more_from, confidence: args.confidence, runs: test.runs() }
+fn decision(test: &Test, args: &CampaignArgs, tally: &Tally) -> DecisionRow {
+    let verdict = |is_small: bool| if is_small { "at_most" } else { "more" };
+    match test {
+        Test::Sequential(test) => {
+            let (at_most, more_from) = test.between();
+            let verdict = test.decision().map_or("undecided", |it| verdict(it == Decision::Small));
+            let (confidence, runs) = (args.confidence(), test.runs());
+            DecisionRow { verdict, at_most, more_from, confidence, runs, exact: false }
+        }
+        &Test::Counted(at_most) => {
+            let share = tally.failing as f64 / tally.runs.max(1) as f64;
+            let (verdict, runs) = (verdict(share <= at_most), tally.runs);
+            DecisionRow { verdict, at_most, more_from: at_most, confidence: 1.0, runs, exact: true }
+        }
+    }
 }
 
 /// Makes failures small, writes what is to be written, and answers.
@@ -170,16 +190,20 @@ fn finish(
     decision: Option<DecisionRow>,
 ) -> Result<CampaignAnswer, Failure> {
     let whole = header.shard.of == 1;
-    let most = if whole { usize::try_from(args.shrink).unwrap_or(0) } else { 0 };
+    let most = args.shrink.unwrap_or(if whole { 20 } else { 0 });
+    let most = usize::try_from(most).unwrap_or(0);
     let requirements = &campaign.settings.requirements;
-    let findings = Findings::of(&campaign.subject, requirements, tally, most);
-    let estimates = campaign.estimates();
-    let overall = cotama_sim::campaign::statistics::clopper_pearson;
+    let mut findings = Findings::of(&campaign.subject, requirements, tally, most);
+    let sampling = campaign.sampling(tally.runs, decision.is_some());
+    if args.confidence.is_some() && !sampling.estimates() {
+        let message = "--confidence: these plans were not drawn, and no interval is given";
+        return Err(Failure::new(message).help("leave --confidence out"));
+    }
     let estimate =
-        |hits: u64| estimates.then(|| Measured::from(overall(hits, tally.runs, args.confidence)));
+        |hits: u64| sampling.interval(hits, tally.runs, args.confidence()).map(Measured::from);
     let rows = requirements.iter().map(|it| {
         let violated = tally.violated.get(&it.to_string()).copied().unwrap_or(0);
-        let (requirement, text) = (it.to_string(), it.words());
+        let (requirement, text) = (it.to_string(), campaign.subject.meaning(it));
         RequirementRow { requirement, text, violated, probability: estimate(violated) }
     });
     let failures = findings.clusters.iter().map(|it| FailureRow {
@@ -192,16 +216,16 @@ fn finish(
     });
     let mut answer = CampaignAnswer {
         schema: "cotama/campaign/1",
-        mission: campaign.subject.mission().name.clone(),
+        mission: campaign.subject.name().to_owned(),
         runs: tally.runs,
         seed: header.seed,
         strategy: header.strategy.clone(),
         policy: header.policy.clone(),
+        planner: campaign.subject.words(),
         shard: (!whole).then(|| format!("{}/{}", header.shard.index, header.shard.of)),
         outcomes: Outcomes::from(tally.outcomes),
         failing: tally.failing,
-        // After a test that stopped when it was decided the share is no estimate.
-        failure_probability: estimate(tally.failing).filter(|_| decision.is_none()),
+        failure_probability: estimate(tally.failing),
         requirements: rows.collect(),
         failures: failures.collect(),
         shrunk: findings.shrunk,
@@ -211,45 +235,50 @@ fn finish(
         policies: Vec::new(),
         report: None,
     };
-    if let Some(folder) = args.out.as_deref().filter(|_| whole) {
-        write(folder, header, campaign, tally, &findings, &mut answer, args.confidence)?;
+    if let Some(folder) = &args.out {
+        scenarios(folder, &mut answer, &mut findings)?;
+        if whole {
+            let confidence = args.confidence();
+            let shown = report::campaign::Shown { planner: &answer.planner, sampling, confidence };
+            let page = report::campaign::html(header, campaign, tally, &findings, &shown);
+            #[cfg(feature = "parquet")]
+            parquet::write(folder, tally.runs)?;
+            let path = folder.join("index.html");
+            output::file(&path, page.as_bytes())?;
+            answer.report = Some(path.display().to_string());
+        }
     }
     Ok(answer)
 }
 
-/// The failures, the page and the summary beside the results.
-fn write(
+/// Writes the failures beside the results.
+fn scenarios(
     folder: &Path,
-    header: &Header,
-    campaign: &Campaign<'_>,
-    tally: &Tally,
-    findings: &Findings,
     answer: &mut CampaignAnswer,
-    confidence: f64,
+    findings: &mut Findings,
 ) -> Result<(), Failure> {
-    let failures = folder.join("failures");
     if !answer.failures.is_empty() {
-        output::make_folder(&failures)?;
+        output::make_folder(&derived::failures(folder))?;
     }
-    for (number, row) in answer.failures.iter_mut().enumerate() {
-        let path = failures.join(format!("{:03}.toml", number + 1));
+    let rows = answer.failures.iter_mut().zip(&mut findings.clusters);
+    for (number, (row, cluster)) in (1..).zip(rows) {
+        let path = derived::failure(folder, number);
         output::file(&path, row.scenario.as_bytes())?;
         row.fault_file = Some(path.display().to_string());
+        cluster.file.clone_from(&row.fault_file);
     }
-    let page = report::campaign::html(header, campaign, tally, findings, confidence);
-    #[cfg(feature = "parquet")]
-    parquet::write(folder, tally.runs)?;
-    let path = folder.join("index.html");
-    output::file(&path, page.as_bytes())?;
-    answer.report = Some(path.display().to_string());
     Ok(())
 }
 
 fn ended(args: &CampaignArgs, answer: &CampaignAnswer, screen: &Screen) -> Result<Exit, Failure> {
+    if let Some(path) = &args.junit {
+        output::file(path, junit::suite(answer).text().as_bytes())?;
+        screen.note(&format!("written: {NAME}{}{NAME:#}", path.display()));
+    }
     if args.json.json {
         Screen::json(answer)?;
     } else {
-        screen.print(&render::campaign::screen(answer))?;
+        screen.print(&render::campaign::screen(answer, screen.width()))?;
     }
     Ok(match answer.decision.map(|it| it.verdict) {
         Some("at_most") => Exit::Success,
@@ -257,77 +286,6 @@ fn ended(args: &CampaignArgs, answer: &CampaignAnswer, screen: &Screen) -> Resul
         None if answer.failing == 0 => Exit::Success,
         _ => Exit::Violated,
     })
-}
-
-/// The same plans with each policy.
-fn compared(
-    args: &CampaignArgs,
-    loaded: &Loaded,
-    settings: &Settings,
-    screen: &Screen,
-) -> Result<Exit, Failure> {
-    let supervised = loaded.mission.supervisor().is_some();
-    let of_all =
-        |it: &PolicyName| !supervised || matches!(it, PolicyName::Usual | PolicyName::Exact);
-    let named: Vec<_> = if supervised {
-        // A search for the most quality is usual there.
-        vec![
-            (
-                "rule",
-                cotama_sim::campaign::subject::Policy {
-                    planner: Some(cotama_sim::options::Planner::Panorama),
-                    ..Default::default()
-                },
-            ),
-            (PolicyName::Exact.name(), PolicyName::Exact.policy(true)),
-        ]
-    } else {
-        let all = PolicyName::ALL.into_iter().filter(of_all);
-        all.map(|it| (it.name(), it.policy(false))).collect()
-    };
-    let policies: Vec<_> = named.iter().map(|(name, it)| ((*name).to_owned(), *it)).collect();
-    let found = compare(&loaded.mission, &policies, settings, jobs(args))
-        .map_err(|error| Failure::of(&loaded.source, error.to_string()))?;
-    let rows: Vec<_> = found
-        .iter()
-        .zip(&named)
-        .map(|(it, (name, _))| {
-            let [duration_ms, energy_mj, operator_requests, replans] = it.means.map(Measured::from);
-            PolicyRow {
-                policy: name,
-                outcomes: Outcomes::from(it.outcomes),
-                success: it.success.into(),
-                success_difference: it.against.as_ref().map(|it| it.success.success.into()),
-                p_value: it.against.as_ref().map(|it| it.success.p_value),
-                duration_ms,
-                energy_mj,
-                operator_requests,
-                replans,
-            }
-        })
-        .collect();
-    let outcomes = rows.first().map_or([0; 3].into(), |it| it.outcomes);
-    let answer = CampaignAnswer {
-        schema: "cotama/campaign/1",
-        mission: loaded.mission.name.clone(),
-        runs: settings.runs,
-        seed: settings.seed,
-        strategy: settings.strategy.name().into(),
-        policy: rows.first().map_or(String::new(), |it| it.policy.into()),
-        shard: None,
-        outcomes,
-        failing: 0,
-        failure_probability: None,
-        requirements: Vec::new(),
-        failures: Vec::new(),
-        shrunk: 0,
-        shrinking_runs: 0,
-        decision: None,
-        digest: String::new(),
-        policies: rows,
-        report: None,
-    };
-    ended(args, &answer, screen)
 }
 
 impl From<Interval> for Measured {

@@ -14,12 +14,12 @@ use cotama_models::nets::{self, Model};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Entry {
     pub(crate) name: &'static str,
-    /// What it is, in a sentence or a few.
+    /// Description, in a sentence or a few.
     pub(crate) description: &'static str,
     pub(crate) kind: Kind,
 }
 
-/// What a name stands for.
+/// The kind of model that a name stands for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Kind {
     /// A net, and how it was checked.
@@ -31,7 +31,7 @@ pub(crate) enum Kind {
 }
 
 impl Entry {
-    /// Its name, with `:N` where a number is needed.
+    /// Returns the name, with `:N` where a number is needed.
     pub(crate) fn shown_name(&self) -> String {
         let number = if matches!(self.kind, Kind::Family(_)) { ":N" } else { "" };
         format!("{}{number}", self.name)
@@ -85,7 +85,7 @@ pub(crate) fn entries() -> Vec<Entry> {
     shipped.chain(supervisors).chain(systems).collect()
 }
 
-/// What the system of this name is required to do.
+/// Returns the requirements of the system of this name.
 pub(crate) fn requirements(name: &str) -> Vec<&'static Requirement> {
     let kept = || REQUIREMENTS.iter().filter(|it| !REPLACED.contains(&it.id));
     match name {

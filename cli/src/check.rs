@@ -4,12 +4,15 @@ pub(crate) mod contest;
 pub(crate) mod explained;
 mod files;
 mod junit;
+mod limit;
 pub(crate) mod questions;
 mod sarif;
+mod uri;
 mod watch;
 
 use crate::answers::check::{
-    Amount, CheckAnswer, EvidenceName, Infinite, OtherwiseRow, ResponseRow, ResultRow, VerdictName,
+    Amount, CheckAnswer, EvidenceName, Infinite, Interrupted, OtherwiseRow, ResponseRow, ResultRow,
+    VerdictName,
 };
 use crate::args::{CheckArgs, EngineName};
 use crate::budget::Budget;
@@ -32,13 +35,15 @@ use std::time::Instant;
 
 /// Answers all questions to a model; with `--watch` again whenever a file changes.
 pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
+    let last_word = LastWord::new(args.json.json);
     if !args.watch {
-        return once(args, screen);
+        return once(args, screen, &last_word);
     }
     let files = watch::files(args)?;
     loop {
         let before = watch::stamps(&files);
-        if let Err(failure) = once(args, screen) {
+        if let Err(failure) = once(args, screen, &last_word) {
+            last_word.forget();
             screen.refuse(&failure, args.json.json);
         }
         screen.note("watching; Ctrl-C ends it");
@@ -46,11 +51,14 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
     }
 }
 
-fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
+fn once(args: &CheckArgs, screen: &Screen, last_word: &LastWord) -> Result<Exit, Failure> {
     // Reading is part of the work.
     let budget = Budget::start(args.budget);
     let engine = engine(args.engine)?;
     let mut files = Files::new(args)?;
+    if let Some(too_large) = limit::of(args)? {
+        return limit::told(args, &too_large, screen);
+    }
     let subject = Subject::load(&args.model, args.untimed, args.semantics)?;
     let asked = questions::asked(args, &subject)?;
     if let Some(it) = asked
@@ -67,8 +75,8 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
     let subject = if asked.are_laws { subject.without_time() } else { subject };
     files.of = asked.properties.len();
     let progress = Progress::new();
-    let (mut results, mut texts) = (Vec::new(), Vec::new());
-    let mut answer = CheckAnswer {
+    let mut texts = Vec::new();
+    last_word.begin(CheckAnswer {
         schema: "cotama/check/1",
         model: subject.name.clone(),
         timed: subject.is_timed(),
@@ -76,10 +84,11 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
         semantics: subject.semantics,
         notes: subject.notes.clone(),
         left_out: asked.left_out.clone(),
+        // Whoever reads it before all is answered is told so.
+        interrupted: Some(Interrupted { asked: asked.properties.len() }),
         results: Vec::new(),
         otherwise: otherwise(&asked, &subject.name),
-    };
-    let mut last_word = None;
+    });
     // A person sees each verdict when it is known.
     let shows = !args.json.json && !args.mcc;
     if shows {
@@ -124,7 +133,7 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
                 row.explained_by(subject, &diagnosis, &found);
                 text = Some(match &subject.rounds {
                     Some(rounds) => explained::in_rounds(rounds, &diagnosis, &found),
-                    // It is indented by two.
+                    // The text is indented by two.
                     None => {
                         format!("{diagnosis:.width$}", width = screen.width().saturating_sub(2))
                     }
@@ -163,14 +172,10 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
             screen.print(&render::check::result(&row, asked.is_usual, unit, width))?;
         }
         texts.push(text.filter(|_| !asked.is_usual || row.verdict == VerdictName::False));
-        if args.json.json && position + 1 < asked.properties.len() {
-            last_word = last_word.or_else(|| LastWord::new(&answer));
-            last_word.iter_mut().for_each(|it| it.add(&row));
-        }
-        results.push(row);
+        last_word.add(row, position + 1 < asked.properties.len());
     }
-    drop(last_word);
-    answer.results = results;
+    let mut answer = last_word.take_or_end();
+    answer.interrupted = None;
     for (file, text) in [(&args.junit, junit::text(&answer)), (&args.sarif, sarif::text(&answer))] {
         if let Some(path) = file {
             output::file(path, text.as_bytes())?;
@@ -185,8 +190,8 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
     Ok(ended(&answer.results))
 }
 
-/// What is known of requirements without a checker. That transitions say what they must is looked
-/// up in the nets.
+/// Returns the requirements known without a checker. The outputs that transitions must emit are
+/// looked up in the nets.
 fn otherwise(asked: &questions::Asked, model: &str) -> Vec<OtherwiseRow> {
     let entry = catalogue::entry(model).filter(|_| !asked.requirements.is_empty());
     let Some(Entry { kind: Kind::System(system), .. }) = entry else { return Vec::new() };
@@ -321,7 +326,8 @@ fn line(property: &Property, answer: &Answer, jobs: usize) -> String {
         Verdict::Holds(holds) => mcc::Answer::Verdict(holds),
         Verdict::Bound(Extent::Finite(most)) => mcc::Answer::Bound(most),
         Verdict::Bound(Extent::Infinite) => {
-            return format!("FORMULA {} +inf TECHNIQUES {}", property.name, techniques.join(" "));
+            let (name, by) = (mcc::word(&property.name), techniques.join(" "));
+            return format!("FORMULA {name} +inf TECHNIQUES {by}");
         }
         Verdict::Response(_) | Verdict::Unknown(_) => mcc::Answer::Unknown,
     };

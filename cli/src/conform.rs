@@ -5,6 +5,7 @@ use crate::args::ConformArgs;
 use crate::exit::{Exit, Failure};
 use crate::file_errors::FileErrors;
 use crate::input;
+use crate::kind::{self, Kind};
 use crate::model;
 use crate::names::{near, quoted};
 use crate::output::Screen;
@@ -27,10 +28,14 @@ pub(crate) fn conform(args: &ConformArgs, screen: &Screen) -> Result<Exit, Failu
         return Err(Failure::new("standard input cannot hold both the model and the recorded run")
             .help("give the path of the model"));
     }
-    let text = input::text(&args.trace, "a recorded run", input::TRACE_BYTES)?;
+    let wanted = [Kind::Recording, Kind::Trace];
+    let text = kind::text(&args.trace, "a recorded run", input::TRACE_BYTES, &wanted)?;
     let recording = recorded(input::name(&args.trace), &text)?;
-    let options = Options { tolerance: Millis(args.tolerance) };
-    let checked = model::with_system(&args.model.model, |it| check(it, &recording, options))?;
+    let checked = model::with_system(&args.model.model, |it, labels| {
+        let (tolerance, most_states) = (Millis(args.tolerance), args.max_states as usize);
+        let (invisible, shared_names) = (&*labels.invisible, &*labels.shared);
+        check(it, &recording, Options { tolerance, most_states, invisible, shared_names })
+    })?;
     let name = &args.model.model;
     let verdict = checked.map_err(|it| refused(it, name, input::name(&args.trace), &text))?;
     let answer = answer(name, &args.trace, &recording, verdict);
@@ -39,7 +44,11 @@ pub(crate) fn conform(args: &ConformArgs, screen: &Screen) -> Result<Exit, Failu
     } else {
         screen.print(&render::conform::screen(&answer, &text, screen.width()))?;
     }
-    Ok(if answer.conforms { Exit::Success } else { Exit::Violated })
+    Ok(match answer.conforms {
+        Some(true) => Exit::Success,
+        Some(false) => Exit::Violated,
+        None => Exit::Unknown,
+    })
 }
 
 /// A recording, or the trace of a supervised mission.
@@ -60,8 +69,8 @@ fn recorded(name: &str, text: &str) -> Result<Recording, Failure> {
     })
 }
 
-/// What a mission's trace says of its supervisors, if there are any: a round took place in each
-/// period, and then they were told one thing. Within one period the trace tells first what fired.
+/// Returns the recording of a mission's supervisors, if there are any: a round took place in each
+/// period, and then they accepted one event. Within one period the trace lists first the firings.
 fn of_mission(trace: &Trace) -> Option<Recording> {
     let said = |(number, record): (usize, &Record)| {
         let what = match record {
@@ -79,6 +88,7 @@ fn of_mission(trace: &Trace) -> Option<Recording> {
         round_every: Some(PERIOD),
         silent: SILENT.map(str::to_owned).to_vec(),
         lines,
+        ..Recording::default()
     })
 }
 
@@ -133,13 +143,15 @@ fn answer(model: &str, trace: &str, recording: &Recording, verdict: Verdict) -> 
         schema: "cotama/conform/1",
         model: model.to_owned(),
         trace: trace.to_owned(),
-        conforms: verdict.departs.is_none(),
+        conforms: verdict.unknown.is_none().then_some(verdict.departs.is_none()),
         lines: recording.lines.len() as u64,
         events: verdict.events,
         fired: verdict.fired,
+        outputs: verdict.outputs,
         rounds: verdict.rounds,
         until_ms: verdict.until.0,
         departs: verdict.departs.map(departs),
+        unknown_from: verdict.unknown.map(|it| it as u64),
     }
 }
 

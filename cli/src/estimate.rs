@@ -23,6 +23,11 @@ pub(crate) fn estimate(args: &EstimateArgs, screen: &Screen) -> Result<Exit, Fai
         let message = "runs are drawn without time, and its transitions have intervals";
         return Err(Failure::of(&args.model, message).help("--untimed leaves the intervals out"));
     }
+    if !subject.model.pt().is_plain() {
+        let message = "runs are drawn of place/transition nets, and it has inhibitor arcs, reset \
+            arcs or priorities";
+        return Err(Failure::of(&args.model, message).help("`cotama check` knows what they mean"));
+    }
     let properties = args.property.iter().map(|it| questions::one(it, false, &subject));
     let properties = properties.collect::<Result<Vec<_>, _>>()?;
     let asked = properties.iter().map(|it| asked(it, &subject)).collect::<Result<Vec<_>, _>>()?;
@@ -102,7 +107,7 @@ fn asked<'s>(property: &Property, subject: &'s Subject) -> Result<Asked<'s>, Fai
     Asked::new(formula, subject.model.pt()).map_err(|error| refused(error.to_string()))
 }
 
-/// What a run shows for certain, if one does.
+/// Returns the verdict that a run shows for certain, if one does.
 fn shown(wants: Wants, tally: &Tally) -> (VerdictName, Option<Witness>) {
     match (wants, tally.shortest_broken, tally.shortest_holding) {
         (Wants::All, Some(it), _) => (VerdictName::False, Some(it)),

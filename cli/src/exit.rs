@@ -8,9 +8,9 @@ use std::process::ExitCode;
 /// How a command ends. The codes are the same for every command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Exit {
-    /// It holds, or there is a plan, or the mission is completed: 0.
+    /// The property holds, or there is a plan, or the mission is completed: 0.
     Success = 0,
-    /// It does not hold, there is no plan, or the mission is not completed: 1.
+    /// The property does not hold, there is no plan, or the mission is not completed: 1.
     Violated = 1,
     /// The input cannot be used, or an output cannot be written: 2.
     BadInput = 2,
@@ -31,9 +31,9 @@ pub(crate) enum Failure {
     Message {
         /// In which file.
         file: Option<String>,
-        /// What.
+        /// Cause of the failure.
         message: String,
-        /// What to do about it.
+        /// Remedy.
         help: Option<String>,
     },
     /// A file has errors at places.
@@ -43,12 +43,14 @@ pub(crate) enum Failure {
 impl Failure {
     /// One thing is wrong.
     pub(crate) fn new(message: impl Into<String>) -> Self {
-        Self::Message { file: None, message: message.into(), help: None }
+        let (message, help) = told(message.into());
+        Self::Message { file: None, message, help }
     }
 
     /// One thing is wrong with a file.
     pub(crate) fn of(file: impl Into<String>, message: impl Into<String>) -> Self {
-        Self::Message { file: Some(file.into()), message: message.into(), help: None }
+        let (message, help) = told(message.into());
+        Self::Message { file: Some(file.into()), message, help }
     }
 
     /// The same with what to do about it.
@@ -59,6 +61,14 @@ impl Failure {
             }
             Self::Text(errors) => Self::Text(errors),
         }
+    }
+}
+
+/// Splits a library's error into its message and the help that stands in a line below it.
+fn told(message: String) -> (String, Option<String>) {
+    match message.trim_end().rsplit_once("\n  help: ") {
+        Some((message, help)) => (message.to_owned(), Some(help.to_owned())),
+        None => (message, None),
     }
 }
 

@@ -19,6 +19,8 @@ use cotama_verification::tina;
 use cotama_verification::tpn;
 use std::path::Path;
 
+/// The most names of a note.
+const SHOWN: usize = 8;
 /// The most entries of a matrix: zeros are written as well.
 const MOST_ENTRIES: usize = 1 << 25;
 
@@ -42,6 +44,12 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
     let style = args.style.unwrap_or(DrawnAs::Auto);
     let name = &args.model.model;
     let text = match (model::find(name)?, args.semantics) {
+        (Found::System(_), None) if format == Format::Svg && args.style.is_some() => {
+            let message = "--style: the drawing of a system is of its nets and what they say";
+            return Err(
+                Failure::new(message).help("--semantics rounds draws the places of all its nets")
+            );
+        }
         (Found::System(system), None) if format == Format::Svg => overview::write(system),
         (Found::System(system), semantics) => {
             let net = one_net(system, semantics.unwrap_or(Semantics::Rounds))?;
@@ -51,14 +59,23 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
             return Err(Failure::new(format!("`{name}` is one net: --semantics is for systems"))
                 .help("leave --semantics out"));
         }
-        // Its intervals can be those of no net.
+        // The intervals of a time net can be those of no net.
         (Found::Time(net), _) if format == Format::Net => tina::write(&net),
         (Found::Time(net), _) => {
             written(&model::played(name, &net)?.view().net(), format, style, screen)?
         }
-        (Found::Net(loaded), _) => written(&loaded.net.view().net(), format, style, screen)?,
+        (Found::Net(loaded), _) if format == Format::Pnml && loaded.random.is_none() => {
+            notes(&loaded.notes, screen);
+            pnml::write_extended(&loaded.net.view().net(), &loaded.extras)
+        }
+        (Found::Net(loaded), _) => {
+            notes(&loaded.notes, screen);
+            let what = format!("written as {}", self::name(format));
+            written(&loaded.plain(name, &what)?.view().net(), format, style, screen)?
+        }
     };
     match &args.output {
+        None if format == Format::Net => Screen::raw(shown(&text, screen).as_bytes())?,
         None => Screen::raw(text.as_bytes())?,
         Some(path) => {
             output::file(path, text.as_bytes())?;
@@ -66,6 +83,21 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
         }
     }
     Ok(Exit::Success)
+}
+
+/// A `.net` file as a screen may show it: the format cannot escape characters of a name that a
+/// screen obeys, so they become their codes here, and a note says so.
+fn shown(text: &str, screen: &Screen) -> String {
+    let Ok(net) = tina::read("net", text.as_bytes()) else { return visible(text) };
+    let shown = tina::write(&net.relabelled(visible));
+    if shown != text {
+        screen.note("note: characters that a screen obeys are codes here; --output keeps them");
+    }
+    shown
+}
+
+fn notes(all: &[String], screen: &Screen) {
+    all.iter().for_each(|it| screen.note(&format!("note: {}", visible(it))));
 }
 
 fn written(
@@ -136,6 +168,25 @@ fn state_chart(net: &Net<'_>, screen: &Screen) -> Result<String, Failure> {
             .help("`--format pnml` and `--format json` hold every net")
     };
     let text = scxml::write(net).map_err(refused)?;
+    let waiting = scxml::waiting(net).map_err(refused)?;
+    let shown: Vec<_> = waiting
+        .iter()
+        .take(SHOWN)
+        .filter_map(|it| Some(format!("`{}`", visible(net.transitions.get(it.0 as usize)?.name))))
+        .collect();
+    if !shown.is_empty() && waiting.len() == net.transitions.len() {
+        screen.note(
+            "note: the net has neither events nor time: each transition of the chart waits for an \
+             event of its name, as `cotama simulate` plays it",
+        );
+    } else if !shown.is_empty() {
+        let more = if waiting.len() > SHOWN { ", ..." } else { "" };
+        screen.note(&format!(
+            "note: at the start these would fire for ever, and wait for events of their names: \
+             {}{more}",
+            shown.join(", ")
+        ));
+    }
     for TransitionId(id) in scxml::unkept_intervals(net).map_err(refused)? {
         if let Some(transition) = net.transitions.get(id as usize) {
             screen.note(&format!(

@@ -1,6 +1,6 @@
 //! Errors at places of a file, whoever found them.
 
-use cotama_models::missions::{MissionErrors, Position};
+use cotama_models::missions::{MissionErrors, Position, told_with};
 use cotama_verification::pnml::{Location, PnmlErrors};
 use std::ops::Range;
 
@@ -18,15 +18,38 @@ pub(crate) struct FileErrors {
 /// One error.
 #[derive(Debug)]
 pub(crate) struct FileError {
-    /// What is wrong.
+    /// Cause of the error.
     pub(crate) message: String,
     pub(crate) at: Mark,
     /// A few words to write under the place.
     pub(crate) label: Option<String>,
-    /// What to do about it.
+    /// Remedy.
     pub(crate) help: Option<String>,
     /// Another place that has to do with it.
     pub(crate) related: Option<Mark>,
+    /// How often the file has an error of this cause; the place is that of the first.
+    pub(crate) times: usize,
+    /// The lines of the next few of them, where the file has many.
+    pub(crate) also: Vec<usize>,
+}
+
+impl FileError {
+    /// One error at a place.
+    pub(crate) fn new(message: String, at: Mark, help: Option<String>) -> Self {
+        Self { message, at, label: None, help, related: None, times: 1, also: Vec::new() }
+    }
+
+    /// Says that there are more of this cause, and where.
+    pub(crate) fn more(&self) -> Option<String> {
+        let more = self.times.checked_sub(1).filter(|&it| it > 0)?;
+        let mut lines = self.also.clone();
+        lines.dedup();
+        let word = if lines.len() == 1 { "line" } else { "lines" };
+        let shown: Vec<_> = lines.iter().map(usize::to_string).collect();
+        let rest = if more > self.also.len() { ", ..." } else { "" };
+        let places = if more == 1 { "place" } else { "places" };
+        Some(format!("the same at {more} further {places}: {word} {}{rest}", shown.join(", ")))
+    }
 }
 
 /// A place in a text.
@@ -58,7 +81,7 @@ impl FileErrors {
         let end = start + text[start..].chars().next().map_or(0, char::len_utf8);
         let Position { line, column } = Position::of(&text, start);
         let at = Mark { line, column, span: start..end };
-        let errors = vec![FileError { message, at, label: None, help: None, related: None }];
+        let errors = vec![FileError::new(message, at, None)];
         Self { source: source.to_owned(), text, errors, omitted: 0 }
     }
 
@@ -67,6 +90,31 @@ impl FileErrors {
         if let Some(first) = self.errors.first_mut() {
             first.help = Some(words.into());
         }
+        self
+    }
+
+    /// The same with the errors of one cause, if they are many, as one.
+    pub(crate) fn folded(mut self) -> Self {
+        const ALSO: usize = 4;
+        let said: Vec<_> =
+            self.errors.iter().map(|it| (it.message.as_str(), it.help.as_deref())).collect();
+        let told = told_with(&said);
+        // An error can stand for several already.
+        let mut also = vec![(0, Vec::new()); told.len()];
+        for (at, (with, error)) in told.iter().zip(&self.errors).enumerate() {
+            let (times, lines) = &mut also[*with];
+            *times += error.times;
+            lines.extend((*with != at).then_some(error.at.line));
+            lines.extend(&error.also);
+        }
+        let mut all = told.into_iter().zip(also).enumerate();
+        self.errors.retain_mut(|it| {
+            let Some((at, (with, (times, mut lines)))) = all.next() else { return true };
+            lines.sort_unstable();
+            lines.truncate(ALSO);
+            (it.times, it.also) = (times, lines);
+            with == at
+        });
         self
     }
 
@@ -96,6 +144,8 @@ impl From<MissionErrors> for FileErrors {
                 label: Some(it.label.clone()),
                 help: it.help.clone(),
                 related: None,
+                times: it.times,
+                also: it.also.iter().map(|it| Position::of(errors.text(), it.start).line).collect(),
             }
         };
         Self {
@@ -111,11 +161,10 @@ impl From<PnmlErrors> for FileErrors {
     fn from(errors: PnmlErrors) -> Self {
         let mark = |at: &Location| Mark { line: at.line, column: at.column, span: at.span.clone() };
         let one = |it: &cotama_verification::pnml::Diagnostic| FileError {
-            message: it.message.clone(),
-            at: mark(&it.at),
-            label: None,
-            help: it.help.clone(),
             related: it.related.as_ref().map(mark),
+            times: it.times,
+            also: it.also.clone(),
+            ..FileError::new(it.message.clone(), mark(&it.at), it.help.clone())
         };
         Self {
             source: errors.source_name().to_owned(),
@@ -123,6 +172,7 @@ impl From<PnmlErrors> for FileErrors {
             errors: errors.diagnostics().iter().map(one).collect(),
             omitted: errors.omitted(),
         }
+        .folded()
     }
 }
 

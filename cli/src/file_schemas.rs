@@ -8,11 +8,11 @@ mod parts;
 
 use cotama_core::hardware::{MAX_KINDS, MAX_UNITS};
 use cotama_models::cotama::{Configuration, FailureMode, Module};
-use cotama_models::missions::faults::{self, Act, Answer, Moment};
+use cotama_models::missions::faults::{self, Act, Adapts, Answer, Moment, OUTCOMES};
 use cotama_models::missions::known::{
-    AT_LEAST_ZERO, ENERGIES, EVENTS, INCIDENTS, NAME_LENGTHS, NEEDED_UNITS, OBJECTIVES, PER_KM,
-    PERIODS, POSITIVE, POWER_ERRORS, QUALITIES, RANDOM_EVENTS, ROUNDINGS, SPEEDS, UNITS,
-    configurations,
+    ALLOCATORS, AT_LEAST_ZERO, COUNTS, ENERGIES, EVENTS, INCIDENTS, NAME_LENGTHS, NEEDED_UNITS,
+    OBJECTIVES, PER_KM, PERIODS, POSITIVE, POWER_ERRORS, QUALITIES, RANDOM_EVENTS, ROUNDINGS,
+    SEARCHES, SPEEDS, UNITS, configurations,
 };
 use cotama_models::missions::{self, AXES, Does, Supervision, Task};
 use parts::{
@@ -56,8 +56,42 @@ pub(crate) fn mission() -> Value {
 /// The schema of a file of faults.
 pub(crate) fn faults() -> Value {
     let format = word(faults::FORMAT, "how this file is written");
-    let file = table(&[("format", format)], &happenings(), "What goes wrong while a mission runs.");
+    let can = [&happenings()[..], &[("planner", planner()), ("expected", expected())]].concat();
+    let file = table(&[("format", format)], &can, "What goes wrong while a mission runs.");
     with(with(file, "$schema", DRAFT.into()), "title", "Faults of a mission of cotama".into())
+}
+
+fn planner() -> Value {
+    let objective = choice(&OBJECTIVES.map(|it| it.0), "what plans are chosen for");
+    let needs = [
+        ("objective", objective),
+        ("allocator", choice(&ALLOCATORS, "who plans: the rule, or a complete search")),
+    ];
+    let can = [
+        ("steps", integer(&SEARCHES, "the most steps of a search; 50,000,000")),
+        ("policy", choice(&Adapts::NAMES.map(|it| it.0), "how plans are adapted; `\"usual\"`")),
+    ];
+    table(&needs, &can, "who plans when `cotama replay` runs it")
+}
+
+fn expected() -> Value {
+    let count = |meaning: &str| integer(&COUNTS, meaning);
+    let needs = [
+        ("requirement", text("the requirement that broke, as in `cotama campaign --require`")),
+        ("outcome", choice(&OUTCOMES, "how the run ended")),
+        ("time_ms", count("the time used, in ms")),
+        ("energy_mj", count("the energy used, in mJ")),
+        ("x_mm", count("how far the robot came, in mm")),
+    ];
+    let can = [
+        ("mission", text("the mission: its name, or the path of its file")),
+        ("seed", count("the seed of the run; 0")),
+        ("replans", count("how often plans were made again")),
+        ("requests", count("how often the operator was asked")),
+        ("exposed_ms", count("the longest motion without a required module, in ms")),
+        ("broken_ms", count("when the requirement was broken, in ms, if that ended the run")),
+    ];
+    table(&needs, &can, "the failure that it records, which `cotama replay` compares with")
 }
 
 fn name() -> Value {
@@ -261,7 +295,7 @@ fn happenings() -> [(&'static str, Value); 3] {
     [("power_error_permille", error), ("event", events), ("random", random)]
 }
 
-/// What an event has beside its place and its kind.
+/// Returns the fields of an event beside its place and its kind.
 fn details() -> [(&'static str, Value); 17] {
     let modes: Vec<_> = FailureMode::ALL.iter().map(|it| it.name()).collect();
     let modules: Vec<_> = Module::ALL.iter().map(|it| it.name()).collect();

@@ -15,6 +15,7 @@ use crate::answers::fmeca::FmecaAnswer;
 use crate::args::{FmecaArgs, FmecaFormat};
 use crate::exit::{Exit, Failure};
 use crate::input;
+use crate::kind::{self, Kind};
 use crate::names::{near, quoted};
 use crate::output::{self, Screen};
 use crate::render;
@@ -67,7 +68,7 @@ fn read(path: &str) -> Result<Analysis, Failure> {
                 .help("give FILE.toml or FILE.csv; `cotama new fmeca NAME` writes one to begin"));
         }
     };
-    let text = input::text(path, "an FMECA", input::FMECA_BYTES)?;
+    let text = kind::text(path, "an FMECA", input::FMECA_BYTES, &[Kind::Fmeca])?;
     Ok(parse(path, &text)?)
 }
 

@@ -29,7 +29,7 @@ pub(crate) fn explain(mission: &Mission, limits: [u64; 2], available: Equipment)
     Some(reason)
 }
 
-/// What an allocator says that proved within so many steps that there is no plan.
+/// Returns the reason of an allocator that proved within so many steps that there is no plan.
 pub(crate) fn short(shortfall: Option<Shortfall>, steps: u64) -> Reason {
     let undecided = || Reason {
         text: format!(

@@ -1,6 +1,9 @@
-//! Reading files, never more than a limit of them.
+//! The one way in for files: never more than a limit of them, as text in UTF-8 without a byte order
+//! mark. A file in another encoding, or with bytes that are no text, is refused with the line and
+//! the column, and what to do.
 
 use crate::exit::Failure;
+use crate::file_errors::FileErrors;
 use crate::names::near;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
@@ -29,7 +32,7 @@ pub(crate) fn text(path: &str, what: &str, limit: u64) -> Result<String, Failure
     utf8(path, what, bytes(path, what, limit)?)
 }
 
-/// What a file, or standard input for `-`, holds.
+/// Reads a file, or standard input for `-`.
 pub(crate) fn bytes(path: &str, what: &str, limit: u64) -> Result<Vec<u8>, Failure> {
     let mut bytes = Vec::new();
     let read = if path == "-" {
@@ -51,23 +54,70 @@ pub(crate) fn bytes(path: &str, what: &str, limit: u64) -> Result<Vec<u8>, Failu
     Ok(bytes)
 }
 
-/// What a path is called in messages.
+/// Returns the name of a path in messages.
 pub(crate) fn name(path: &str) -> &str {
     if path == "-" { "standard input" } else { path }
 }
 
-/// The bytes of a file as text.
+/// The bytes of a file as text, without a byte order mark.
 pub(crate) fn utf8(path: &str, what: &str, bytes: Vec<u8>) -> Result<String, Failure> {
-    let name = name(path);
-    String::from_utf8(bytes).map_err(|error| {
+    if let Some(encoding) = wide(&bytes) {
+        let message = format!("this is text in {encoding}, and {what} is text in UTF-8");
+        return Err(Failure::of(name(path), message).help(
+            "save it as UTF-8; in PowerShell: Get-Content FILE | Set-Content -Encoding utf8 NEW",
+        ));
+    }
+    let text = String::from_utf8(bytes).map_err(|error| {
         let offset = error.utf8_error().valid_up_to();
         let byte = error.as_bytes().get(offset).copied().unwrap_or(0);
-        Failure::of(
-            name,
-            format!("not a text: the byte at offset {offset} is 0x{byte:02x}, which is not UTF-8"),
-        )
-        .help(format!("{what} is text in UTF-8"))
-    })
+        let help = if byte >= 0xa0 {
+            format!("{what} is text in UTF-8; save it as UTF-8, this may be Latin-1 (Windows-1252)")
+        } else {
+            format!("{what} is text in UTF-8; is this really {what}?")
+        };
+        let message = format!("the byte 0x{byte:02x} is not UTF-8");
+        let text = String::from_utf8_lossy(error.as_bytes());
+        let bare = text.strip_prefix(MARK).unwrap_or(&text);
+        let at = offset.saturating_sub(text.len() - bare.len());
+        located(path, bare.to_owned(), at, message, help)
+    })?;
+    let text = match text.strip_prefix(MARK) {
+        Some(rest) => rest.to_owned(),
+        None => text,
+    };
+    let Some(nul) = text.find('\0') else { return Ok(text) };
+    let help = if text[nul..].bytes().all(|it| it == 0 || it.is_ascii_whitespace()) {
+        "the file ends in such bytes, as after a loss of power: remove them"
+    } else {
+        "remove it; or this is no text at all"
+    };
+    let message = "a NUL, the byte 0x00, which is in no text".to_owned();
+    Err(located(path, text, nul, message, help.to_owned()))
+}
+
+/// The byte order mark of UTF-8, as text.
+const MARK: char = '\u{feff}';
+
+/// The encoding of a text in units of more than a byte, if that is clear from how it begins.
+fn wide(bytes: &[u8]) -> Option<&'static str> {
+    match bytes {
+        [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => Some("UTF-32"),
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Some("UTF-16"),
+        [first, 0, second, 0, ..] | [0, first, 0, second, ..]
+            if first.is_ascii() && second.is_ascii() && *first > 0 && *second > 0 =>
+        {
+            Some("UTF-16")
+        }
+        _ => None,
+    }
+}
+
+/// An error at a byte of a text.
+fn located(path: &str, text: String, at: usize, message: String, help: String) -> Failure {
+    let before = text.get(..at).unwrap_or(&text);
+    let line = 1 + before.matches('\n').count();
+    let column = 1 + at - before.rfind('\n').map_or(0, |it| it + 1);
+    FileErrors::at(name(path), text, line, column, message).help(help).into()
 }
 
 fn unreadable(name: &str, what: &str, error: &std::io::Error) -> Failure {
@@ -112,7 +162,7 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|it| !it.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// What the system says, without its error number.
+/// Returns the system's message, without its error number.
 pub(crate) fn plain(error: &std::io::Error) -> String {
     let said = error.to_string();
     let said = said.split(" (os error").next().unwrap_or(&said);

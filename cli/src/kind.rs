@@ -1,11 +1,13 @@
-//! What kind of file something is, as far as its beginning tells: so that a file of another kind
-//! leads to the command that reads it, and not to an error in every line.
+//! The kind of a file, as far as its beginning tells: so that a file of another kind leads to the
+//! command that reads it, and not to an error in every line.
 
 use crate::catalogue;
 use crate::exit::Failure;
+use crate::foreign::{self, Foreign};
 use crate::input;
 use crate::names::quoted;
 use cotama_models::missions::embedded;
+use std::io::Read;
 
 /// A kind of file that some command reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,23 +21,33 @@ pub(crate) enum Kind {
     Tina,
     Certificate,
     Trace,
+    /// A recorded run, with a line of JSON for each thing that happened.
+    Recording,
     Instance,
     Team,
+    /// A team at work.
+    TeamAtWork,
+    TeamFaults,
+    TeamTrace,
+    Fmeca,
 }
 
 /// The kinds that hold a model.
-pub(crate) const MODELS: [Kind; 3] = [Kind::Pnml, Kind::JsonNet, Kind::Tina];
+pub(crate) const MODELS: [Kind; 4] = [Kind::Pnml, Kind::JsonNet, Kind::Tina, Kind::TeamAtWork];
 /// So many bytes tell.
 const LOOKED_AT: usize = 64 << 10;
 
 impl Kind {
     /// The kind of a file that begins so, if that is clear.
     fn of(bytes: &[u8]) -> Option<Self> {
-        let start = String::from_utf8_lossy(&bytes[..bytes.len().min(LOOKED_AT)]);
-        let start = start.trim_start_matches('\u{feff}').trim_start();
+        let start = beginning(bytes);
+        let start = start.as_str();
         if start.starts_with('<') {
-            let elements = [("<pnml", Self::Pnml), ("<property-set", Self::Properties)];
-            return elements.into_iter().find(|it| start.contains(it.0)).map(|it| it.1);
+            return match foreign::root(start)? {
+                "pnml" => Some(Self::Pnml),
+                "property-set" => Some(Self::Properties),
+                _ => None,
+            };
         }
         if start.starts_with('{') {
             return Self::of_json(start);
@@ -46,6 +58,9 @@ impl Kind {
         match value.map(|it| it.trim_start_matches(['"', '\''])) {
             Some(it) if it.starts_with("panorama-mission/") => return Some(Self::Mission),
             Some(it) if it.starts_with("panorama-faults/") => return Some(Self::Faults),
+            Some(it) if it.starts_with("cotama-fmeca/") => return Some(Self::Fmeca),
+            Some(it) if it.starts_with("cotama-team-faults/") => return Some(Self::TeamFaults),
+            Some(it) if it.starts_with("cotama-team/") => return Some(Self::TeamAtWork),
             _ => {}
         }
         let first = lines.find(|it| !it.is_empty() && !it.starts_with('#'))?;
@@ -59,10 +74,14 @@ impl Kind {
             ("cotama/net/", Self::JsonNet),
             ("cotama-certificate/", Self::Certificate),
             ("cotama-trace/", Self::Trace),
+            ("cotama/team-trace/", Self::TeamTrace),
+            ("cotama-recording/", Self::Recording),
         ];
         let format = start.split_once("\"format\"").map(|it| it.1.trim_start_matches([':', ' ']));
-        if format.is_some_and(|it| it.starts_with("\"cotama-team-assignment/")) {
-            return Some(Self::Team);
+        let formats =
+            [("\"cotama-team-assignment/", Self::Team), ("\"cotama-team/", Self::TeamAtWork)];
+        if let Some(it) = formats.iter().find(|it| format.is_some_and(|is| is.starts_with(it.0))) {
+            return Some(it.1);
         }
         let named = start.split_once("\"schema\"").map(|it| it.1.trim_start_matches([':', ' ']));
         let schema = named.map(|it| it.trim_start_matches('"'));
@@ -72,7 +91,7 @@ impl Kind {
         known.map(|it| it.1).or(is_instance.then_some(Self::Instance))
     }
 
-    /// What it is, in a few words.
+    /// A few words for it.
     const fn words(self) -> &'static str {
         match self {
             Self::Mission => "a mission",
@@ -83,12 +102,17 @@ impl Kind {
             Self::Tina => "a net of TINA",
             Self::Certificate => "a certificate",
             Self::Trace => "a trace",
+            Self::Recording => "a recorded run",
+            Self::Fmeca => "an FMECA",
             Self::Instance => "an allocation instance",
             Self::Team => "a team with its tasks",
+            Self::TeamAtWork => "a team at work",
+            Self::TeamFaults => "a file of a team's faults",
+            Self::TeamTrace => "the trace of a team",
         }
     }
 
-    /// Where one comes from.
+    /// Returns a hint at the source of such a file.
     const fn origin(self) -> &'static str {
         match self {
             Self::Mission => "`cotama new mission NAME` begins one",
@@ -99,8 +123,13 @@ impl Kind {
             Self::Properties => "a property a line, as `name: AG !(a & b)`",
             Self::Certificate => "`cotama check MODEL --certificate FILE` writes one",
             Self::Trace => "`cotama run MISSION --trace FILE` writes one",
+            Self::Recording => "`cotama help conform` shows one",
+            Self::Fmeca => "`cotama new fmeca NAME` begins one",
             Self::Instance => "`cotama help allocate` shows one",
             Self::Team => "`cotama help assign` shows one",
+            Self::TeamAtWork => "`cotama show service` prints one",
+            Self::TeamFaults => "`cotama campaign service --out DIR` writes some",
+            Self::TeamTrace => "`cotama run fleet --trace FILE` writes one",
         }
     }
 
@@ -112,25 +141,15 @@ impl Kind {
             Self::Pnml | Self::JsonNet | Self::Tina => format!("cotama check {file}"),
             Self::Properties => format!("cotama check MODEL --properties {file}"),
             Self::Certificate => format!("cotama verify {file}"),
-            Self::Trace => format!("cotama replay {file}"),
+            Self::Trace | Self::TeamTrace | Self::TeamFaults => format!("cotama replay {file}"),
+            Self::Recording => format!("cotama conform MODEL {file}"),
+            Self::Fmeca => format!("cotama fmeca {file}"),
             Self::Instance => format!("cotama allocate {file}"),
             Self::Team => format!("cotama assign {file}"),
+            Self::TeamAtWork => format!("cotama run {file}"),
         }
     }
 }
-
-/// How files of some kinds begin that no command reads, and what they are.
-const PAGES: [(&[u8], &str); 3] = [
-    (b"\x89PNG", "a picture (PNG)"),
-    (b"\xff\xd8\xff", "a picture (JPEG)"),
-    (b"%PDF", "a page (PDF)"),
-];
-/// The same of what the readers of models refuse themselves, with its place.
-const BINARIES: [(&[u8], &str); 3] = [
-    (b"PK\x03\x04", "an archive (ZIP)"),
-    (b"\x1f\x8b", "an archive (gzip)"),
-    (b"\x7fELF", "a program (ELF)"),
-];
 
 /// The text of a file of one of these kinds, or of standard input for `-`; `what` says what it
 /// should be.
@@ -140,26 +159,68 @@ pub(crate) fn text(path: &str, what: &str, limit: u64, wanted: &[Kind]) -> Resul
     input::utf8(path, what, bytes)
 }
 
-/// Refuses a file that is empty, or clearly of a kind that is not read here; `what` says what is.
+/// Whether a file is there that begins as one of this kind.
+pub(crate) fn is(path: &str, kind: Kind) -> bool {
+    let mut start = Vec::new();
+    let read =
+        std::fs::File::open(path).and_then(|it| it.take(LOOKED_AT as u64).read_to_end(&mut start));
+    read.is_ok() && Kind::of(&start) == Some(kind)
+}
+
+/// Whether a text begins as one of this kind.
+pub(crate) fn is_of(text: impl AsRef<[u8]>, kind: Kind) -> bool {
+    Kind::of(text.as_ref()) == Some(kind)
+}
+
+/// Refuses a file that is empty, of another tool, or clearly of a kind that is not read here;
+/// `what` says what is.
 pub(crate) fn expect(path: &str, bytes: &[u8], what: &str, wanted: &[Kind]) -> Result<(), Failure> {
-    let begins = |it: &&(&[u8], &'static str)| bytes.starts_with(it.0);
-    let page = PAGES.iter().find(begins).map(|it| it.1);
-    let binary = || BINARIES.iter().find(begins).map(|it| it.1);
-    let empty = || bytes.trim_ascii().is_empty().then_some("empty");
-    let other = || if wanted == MODELS { None } else { binary().or_else(empty) };
-    if let Some(is) = page.or_else(other) {
+    let refused = |is: &str, help: String| {
         let message = format!("this is {is}, and {what} is needed here");
-        let failure = Failure::of(input::name(path), message);
-        return Err(failure.help(wanted.first().map_or("", |it| it.origin())));
+        Err(Failure::of(input::name(path), message).help(help))
+    };
+    let start = beginning(bytes);
+    if is_empty(bytes) {
+        return refused("empty", wanted.first().map_or("", |it| it.origin()).to_owned());
     }
-    match Kind::of(bytes).filter(|it| !wanted.contains(it)) {
-        None => Ok(()),
-        Some(kind) => {
-            let message = format!("this is {}, and {what} is needed here", kind.words());
-            Err(Failure::of(input::name(path), message)
-                .help(format!("try `{}`", kind.command(&quoted(path)))))
-        }
+    if let Some(Foreign { is, out }) = foreign::of_bytes(bytes).or_else(|| foreign::of_text(&start))
+    {
+        return refused(is, out.to_owned());
     }
+    if let Some(kind) = Kind::of(bytes).filter(|it| !wanted.contains(it)) {
+        let help = match (path, kind) {
+            // What was read of standard input is gone.
+            ("-", Kind::TeamAtWork) => "a team is read from a file: `cotama run TEAM.toml`".into(),
+            _ => format!("try `{}`", kind.command(&quoted(path))),
+        };
+        return refused(kind.words(), help);
+    }
+    let is_toml = |it: &Kind| matches!(it, Kind::Mission | Kind::Faults | Kind::TeamAtWork);
+    let is_toml = !wanted.is_empty() && wanted.iter().all(is_toml);
+    let reads_yaml = [Kind::Properties, Kind::Fmeca].iter().any(|it| wanted.contains(it));
+    if !reads_yaml && foreign::is_yaml(&start) {
+        let help =
+            if is_toml { "missions are TOML: `key = value`, tables as `[limits]`; " } else { "" };
+        let origin = wanted.first().map_or("", |it| it.origin());
+        return refused("YAML, it seems", format!("{help}{origin}"));
+    }
+    if is_toml && start.starts_with('{') && !wanted.contains(&Kind::TeamAtWork) {
+        let help = "missions are TOML: `key = value`, tables as `[limits]`; `cotama new mission \
+            NAME` begins one";
+        return refused("JSON", help.to_owned());
+    }
+    Ok(())
+}
+
+fn is_empty(bytes: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    bytes.trim_ascii().is_empty()
+}
+
+/// The beginning of a file, without a byte order mark and white space.
+fn beginning(bytes: &[u8]) -> String {
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(LOOKED_AT)]);
+    start.trim_start_matches('\u{feff}').trim_start().to_owned()
 }
 
 /// Why the name of a model is none of a mission, if it is a model's.
@@ -192,8 +253,11 @@ mod tests {
             ("{\n  \"schema\": \"cotama/net/1\"", Kind::JsonNet),
             ("{\"schema\":\"cotama-certificate/1\",", Kind::Certificate),
             ("{\"schema\":\"cotama-trace/1\",", Kind::Trace),
+            ("{\"schema\":\"cotama/team-trace/2\",", Kind::TeamTrace),
+            ("# two rooms\nformat = \"cotama-team/1\"", Kind::TeamAtWork),
             ("{\"limits\":{},\"activities\":[]}", Kind::Instance),
             ("{\"format\": \"cotama-team-assignment/1\",", Kind::Team),
+            ("{\n \"name\": \"a\",\n \"format\": \"cotama-team/1\"", Kind::TeamAtWork),
             ("# lamp\nnet lamp\ntr on off -> lit", Kind::Tina),
         ];
         for (text, expected) in cases {

@@ -1,101 +1,96 @@
-//! Results in JSON that are printed even when the command is interrupted: by a second process,
-//! which an interruption from the terminal does not reach.
+//! Results in JSON that are printed even when the command is interrupted.
 //!
 //! An object is whole or none at all, so a command cannot print it bit by bit as it prints lines.
-//! It hands each result to the second process when it is known, which prints them when the command
-//! has ended without printing them itself.
+//! Keeps the answer where a thread that waits for the signals of an interruption finds it.
 
-use serde::Serialize;
-use std::env;
-use std::io::{self, BufRead, Write};
-use std::process::{Child, Command, ExitCode, Stdio};
+use crate::answers::check::{CheckAnswer, ResultRow};
+use std::sync::{Arc, Mutex, MutexGuard, Once, PoisonError};
 
-/// Says to this program that it is the second process.
-const NAME: &str = "COTAMA_LAST_WORD";
-
-/// What stands behind each part: JSON holds no such byte.
-const END: u8 = 0;
-
-/// Where results stand in an answer that has none. Inside of a text its quotes would be escaped.
-const RESULTS: &str = "\"results\": []";
-
-/// The second process. It prints nothing once this is dropped.
-#[derive(Debug)]
+/// The answer of a check that is under way.
+#[derive(Clone, Debug, Default)]
 pub(crate) struct LastWord {
-    process: Child,
+    answer: Arc<Mutex<Option<CheckAnswer>>>,
+    /// Starts the thread, once; `None` where nothing is printed but whole.
+    start: Option<Arc<Once>>,
 }
 
 impl LastWord {
-    /// Starts it with an answer that has no results yet; `None` where that cannot be.
-    #[cfg(unix)]
-    pub(crate) fn new(answer: &impl Serialize) -> Option<Self> {
-        use std::os::unix::process::CommandExt;
-        let process = Command::new(env::current_exe().ok()?)
-            .env(NAME, "1")
-            .process_group(0)
-            .stdin(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn();
-        let mut word = Self { process: process.ok()? };
-        word.add(answer);
-        Some(word)
+    /// An answer that is printed when the command is interrupted, in JSON, if it has results by
+    /// then.
+    pub(crate) fn new(is_json: bool) -> Self {
+        Self { answer: Arc::default(), start: is_json.then(|| Arc::new(Once::new())) }
     }
 
-    /// Nothing: processes have no groups here.
-    #[cfg(not(unix))]
-    pub(crate) fn new(_: &impl Serialize) -> Option<Self> {
-        None
+    /// Keeps an answer that has no results yet.
+    pub(crate) fn begin(&self, answer: CheckAnswer) {
+        *self.lock() = Some(answer);
     }
 
-    /// Hands over a result. If that fails it will not be printed.
-    pub(crate) fn add(&mut self, result: &impl Serialize) {
-        let Some(pipe) = &mut self.process.stdin else { return };
-        let Ok(mut text) = serde_json::to_vec_pretty(result) else { return };
-        text.push(END);
-        let _ = pipe.write_all(&text).and_then(|()| pipe.flush());
+    /// Keeps a result. Before the first of several there is nothing to wait with: the thread would
+    /// only take 64 MiB of addresses.
+    pub(crate) fn add(&self, result: ResultRow, others_follow: bool) {
+        if let Some(answer) = &mut *self.lock() {
+            answer.results.push(result);
+        }
+        #[cfg(unix)]
+        if let Some(start) = self.start.as_ref().filter(|_| others_follow) {
+            start.call_once(|| signals::print_then_end(self.clone()));
+        }
+    }
+
+    /// Drops the answer of a check that failed.
+    pub(crate) fn forget(&self) {
+        self.lock().take();
+    }
+
+    /// Returns the answer, which an interruption does not print from now on. If one came before,
+    /// the program ends meanwhile.
+    pub(crate) fn take_or_end(&self) -> CheckAnswer {
+        loop {
+            if let Some(answer) = self.lock().take() {
+                return answer;
+            }
+            std::thread::park();
+        }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<CheckAnswer>> {
+        self.answer.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl Drop for LastWord {
-    fn drop(&mut self) {
-        let _ = self.process.kill();
-        let _ = self.process.wait();
-    }
-}
+#[cfg(unix)]
+mod signals {
+    use super::LastWord;
+    use crate::output::Screen;
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+    use signal_hook::low_level::emulate_default_handler;
+    use std::ffi::c_int;
+    use std::thread;
 
-/// If this is the second process, waits for the command to end and prints what it left.
-pub(crate) fn printed() -> Option<ExitCode> {
-    env::var_os(NAME)?;
-    let (mut input, mut parts, mut part) = (io::stdin().lock(), Vec::new(), Vec::new());
-    while input.read_until(END, &mut part).is_ok() && part.pop_if(|it| *it == END).is_some() {
-        parts.push(String::from_utf8_lossy(&std::mem::take(&mut part)).into_owned());
+    /// Waits in a thread. The command ends by the signal, so a shell ends its loop as well.
+    pub(super) fn print_then_end(word: LastWord) {
+        let heard = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|it| !is_ignored(*it));
+        let Ok(mut signals) = Signals::new(heard) else { return };
+        thread::spawn(move || {
+            for signal in signals.forever() {
+                // A reader who has gone away gets nothing.
+                let _ = word
+                    .lock()
+                    .take()
+                    .filter(|it| !it.results.is_empty())
+                    .map(|answer| Screen::json(&answer));
+                let _ = emulate_default_handler(signal);
+            }
+        });
     }
-    if let Some((answer, results)) = parts.split_first() {
-        let results = format!("\"results\": [{}]", results.join(", "));
-        let _ = writeln!(io::stdout(), "{}", answer.replacen(RESULTS, &results, 1));
-    }
-    Some(ExitCode::SUCCESS)
-}
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::answers::check::CheckAnswer;
-
-    #[test]
-    fn an_answer_has_a_place_for_results() {
-        let answer = CheckAnswer {
-            schema: "",
-            model: RESULTS.to_owned(),
-            timed: false,
-            time_unit: None,
-            semantics: None,
-            notes: vec![],
-            left_out: vec![],
-            results: vec![],
-            otherwise: vec![],
-        };
-        let text = serde_json::to_string_pretty(&answer).unwrap();
-        assert_eq!(text.matches(RESULTS).count(), 1);
+    /// Returns whether whoever started the program wants it to go on, as `nohup` does.
+    fn is_ignored(signal: c_int) -> bool {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let ignored = status.lines().find_map(|it| it.strip_prefix("SigIgn:"));
+        let ignored = ignored.and_then(|it| u64::from_str_radix(it.trim(), 16).ok());
+        ignored.is_some_and(|it| (it >> (signal - 1)) & 1 == 1)
     }
 }

@@ -20,8 +20,10 @@ mod export;
 mod file_errors;
 mod file_schemas;
 mod fmeca;
+mod foreign;
 mod infeasible;
 mod input;
+mod junit;
 mod kind;
 mod last_word;
 mod list;
@@ -43,33 +45,28 @@ mod simulate;
 mod solve;
 mod statespace;
 mod subject;
+mod team;
 mod verify;
 mod words;
 
 use answers::error::ErrorAnswer;
-use args::{Cli, Command};
+use args::{Cli, Color, Command};
 use clap::FromArgMatches;
 use clap::error::ContextKind;
 use exit::{Exit, Failure};
 use output::Screen;
+use render::visible;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// Does what the words of the command line say, and says how that ended.
 pub fn main() -> ExitCode {
-    if let Some(code) = last_word::printed() {
-        return code;
-    }
     let words: Vec<_> = std::env::args_os().collect();
     // A command line that cannot be understood may say, too, that a program reads the answer.
     let is_json = words.iter().take_while(|it| *it != "--").any(|it| it == "--json");
     let cli = match read(&words) {
         Ok(cli) => cli,
-        Err(error) if is_json && error.exit_code() != 0 => {
-            let said = Screen::json(&ErrorAnswer::from(&Failure::from(&error)));
-            return said.map_or_else(|_| error.exit(), |()| Exit::BadInput.into());
-        }
-        Err(error) => error.exit(),
+        Err(refused) => return refused.told(is_json),
     };
     let screen = Screen::new(cli.color);
     ended(cli.command, &screen)
@@ -80,18 +77,68 @@ pub fn main() -> ExitCode {
         .into()
 }
 
-fn read(words: &[OsString]) -> Result<Cli, clap::Error> {
-    let mut command = args::command(output::width());
-    command
-        .try_get_matches_from_mut(words)
-        .and_then(|mut matches| Cli::from_arg_matches_mut(&mut matches))
-        .map_err(|mut error| {
-            // Who mistypes an option does not want its name as a value.
-            if error.get(ContextKind::SuggestedArg).is_none() {
-                error.remove(ContextKind::Suggested);
+/// The answer to a command line without any work: help, or why it cannot be understood.
+#[derive(Debug)]
+enum Refused {
+    /// By the reader of command lines.
+    Clap(Box<clap::Error>),
+    Failure(Failure),
+}
+
+impl Refused {
+    fn told(&self, is_json: bool) -> ExitCode {
+        let screen = Screen::new(Color::Auto);
+        let error = match self {
+            Self::Failure(failure) => {
+                screen.refuse(failure, is_json);
+                return Exit::BadInput.into();
             }
-            error.format(&mut command)
-        })
+            Self::Clap(error) => error,
+        };
+        if error.exit_code() != 0 {
+            let said =
+                is_json && Screen::json(&ErrorAnswer::from(&Failure::from(&**error))).is_ok();
+            if !said {
+                let _ = error.print();
+            }
+            return Exit::BadInput.into();
+        }
+        // Help and version are what was asked for, on standard output.
+        screen.printed(&error.render()).map_or_else(
+            |failure| {
+                screen.explain(&failure);
+                Exit::BadInput.into()
+            },
+            |()| Exit::Success.into(),
+        )
+    }
+}
+
+fn read(words: &[OsString]) -> Result<Cli, Refused> {
+    let mut command = args::command(output::width());
+    // Written files must be found again, and answers in JSON name them.
+    if let Some(word) = words.iter().find(|it| it.to_str().is_none()) {
+        let word = word.to_string_lossy();
+        return Err(Refused::Failure(
+            Failure::new(format!("`{word}`: this argument is no text in UTF-8"))
+                .help("give files and folders names in UTF-8"),
+        ));
+    }
+    let matched = command.try_get_matches_from_mut(words);
+    let read = matched.and_then(|mut matches| Cli::from_arg_matches_mut(&mut matches));
+    read.map_err(|error| {
+        // The words stand in the message: there they are those that a terminal shows.
+        let shown = words.iter().map(|it| visible(&it.to_string_lossy()));
+        let again = command.try_get_matches_from_mut(shown).err();
+        let Some(mut error) = again.filter(|it| it.kind() == error.kind()) else {
+            return Refused::Failure(Failure::from(&error));
+        };
+        // A user who mistypes an option does not want its name as a value.
+        if error.get(ContextKind::SuggestedArg).is_none() {
+            error.remove(ContextKind::Suggested);
+        }
+        Refused::Clap(Box::new(error.format(&mut command)))
+    })
 }
 
 fn ended(command: Command, screen: &Screen) -> Result<Exit, Failure> {

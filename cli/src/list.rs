@@ -7,7 +7,7 @@ use crate::exit::{Exit, Failure};
 use crate::output::Screen;
 use crate::render::described;
 use crate::render::style::{HEADING, NAME};
-use crate::run::Team;
+use crate::team::Team;
 use cotama_models::missions::embedded;
 use std::fmt::Write;
 

@@ -4,14 +4,18 @@ use crate::catalogue::{self, Entry, Kind};
 use crate::exit::Failure;
 use crate::file_errors::FileErrors;
 use crate::input;
-use crate::kind;
+use crate::kind::{self, Kind as FileKind};
 use crate::names::{is_name, near};
-use cotama_core::net::Known;
+use crate::team::{self, Chosen, Protocol, Team};
 use cotama_core::net::owned::OwnedNet;
+use cotama_core::net::{Known, TransitionId};
 use cotama_core::system::{Component, System};
 use cotama_models::nets;
+use cotama_models::team::protocol::Requirement;
+use cotama_models::team::scenario::Scenario;
 use cotama_verification::formats::json::{self, JsonNetError};
-use cotama_verification::pnml::{self, Imported, Limits};
+use cotama_verification::pnml::{self, Imported, Limits, PnmlErrors};
+use cotama_verification::pt::Extras;
 use cotama_verification::tina;
 use cotama_verification::tpn::{self, Interval, NotANet, TimeNet};
 use std::path::Path;
@@ -22,52 +26,109 @@ pub(crate) struct Loaded {
     pub(crate) net: OwnedNet,
     /// How it was checked while this program was compiled, if it was.
     pub(crate) known: Option<Known>,
-    /// What its PNML file calls places and transitions; nothing of other models.
+    /// Ids of places and transitions in its PNML file; empty for other models.
     pub(crate) place_ids: Vec<String>,
     pub(crate) transition_ids: Vec<String>,
+    pub(crate) labels: Box<Labels>,
+    /// Inhibitor arcs, reset arcs and priorities, which `net` does not hold.
+    pub(crate) extras: Extras,
+    /// The error that it has random delays, for all who do not leave time out.
+    pub(crate) random: Option<PnmlErrors>,
+    /// Notes on labels that its reader left out.
+    pub(crate) notes: Vec<String>,
+    /// Requirements of the protocol of a team; empty for other models.
+    pub(crate) requirements: Vec<Requirement>,
+}
+
+/// Labels of transitions in a PNML file, for those who compare them with a log.
+#[derive(Debug, Default)]
+pub(crate) struct Labels {
+    /// Transitions that no log shows.
+    pub(crate) invisible: Vec<TransitionId>,
+    /// Names that several share.
+    pub(crate) shared: Vec<(TransitionId, String)>,
 }
 
 impl Loaded {
     fn new(net: OwnedNet, known: Option<Known>) -> Self {
-        Self { net, known, place_ids: Vec::new(), transition_ids: Vec::new() }
+        Self {
+            net,
+            known,
+            place_ids: Vec::new(),
+            transition_ids: Vec::new(),
+            labels: Box::default(),
+            extras: Extras::default(),
+            random: None,
+            notes: Vec::new(),
+            requirements: Vec::new(),
+        }
+    }
+
+    /// The net, if it is all; `what` would be done with it.
+    ///
+    /// # Errors
+    /// When that would lose its inhibitor arcs, reset arcs, priorities or random delays.
+    pub(crate) fn plain(self, name: &str, what: &str) -> Result<OwnedNet, Failure> {
+        if let Some(random) = self.random {
+            return Err(random.into());
+        }
+        if self.extras.is_empty() {
+            return Ok(self.net);
+        }
+        let message = format!("its {} cannot be {what}", self.extras.named());
+        Err(Failure::of(input::name(name), message)
+            .help("`cotama check` and `cotama statespace` know them, `--format pnml` writes them"))
     }
 }
 
-/// What a name stands for.
+/// The model that a name stands for.
 #[derive(Debug)]
 pub(crate) enum Found {
-    Net(Loaded),
+    Net(Box<Loaded>),
     /// A time net, whose intervals can be those of no net.
     Time(TimeNet),
     /// Nets that work together.
     System(&'static System<'static>),
 }
 
-/// What is done with the system of this name; a net is a system of one.
+impl From<Loaded> for Found {
+    fn from(loaded: Loaded) -> Self {
+        Self::Net(Box::new(loaded))
+    }
+}
+
+/// Calls a function with the system of this name, and with what the file of a net says for logs;
+/// a net is a system of one.
 pub(crate) fn with_system<T>(
     name: &str,
-    then: impl FnOnce(&System<'_>) -> T,
+    then: impl FnOnce(&System<'_>, &Labels) -> T,
 ) -> Result<T, Failure> {
-    let net = match find(name)? {
-        Found::System(system) => return Ok(then(system)),
-        Found::Net(loaded) => loaded.net,
-        Found::Time(net) => played(name, &net)?,
+    let (net, labels) = match find(name)? {
+        Found::System(system) => return Ok(then(system, &Labels::default())),
+        Found::Net(mut loaded) => {
+            let labels = std::mem::take(&mut loaded.labels);
+            (loaded.plain(name, "played")?, labels)
+        }
+        Found::Time(net) => (played(name, &net)?, Box::default()),
     };
     let view = net.view();
-    Ok(then(&System::alone(&[Component::alone(&view.net())])))
+    Ok(then(&System::alone(&[Component::alone(&view.net())]), &labels))
 }
 
 /// The model of this name, or of the file at this path.
 pub(crate) fn find(name: &str) -> Result<Found, Failure> {
+    if let Some(team) = Team::named(name) {
+        return protocol(name, &Chosen::Known(team).scenario());
+    }
     let (family, number) =
         name.split_once(':').map_or((name, None), |(family, it)| (family, Some(it)));
     match catalogue::entry(family) {
         Some(Entry { kind: Kind::Net(net, known), .. }) if number.is_none() => {
-            Ok(Found::Net(Loaded::new(OwnedNet::from(net), Some(known))))
+            Ok(Found::from(Loaded::new(OwnedNet::from(net), Some(known))))
         }
         Some(Entry { kind: Kind::Family(_), .. }) => {
             let net = nets::find(name).map_err(|error| Failure::new(error.to_string()))?;
-            Ok(Found::Net(Loaded::new(net, None)))
+            Ok(Found::from(Loaded::new(net, None)))
         }
         Some(Entry { kind: Kind::System(system), .. }) if number.is_none() => {
             Ok(Found::System(system))
@@ -86,7 +147,8 @@ pub(crate) fn find(name: &str) -> Result<Found, Failure> {
 fn unknown(name: &str, family: &str) -> Failure {
     let entries = catalogue::entries();
     let number = &name[family.len()..];
-    let guess = near(family, entries.iter().map(|it| it.name))
+    let teams = Team::ALL.iter().map(|it| it.0.name());
+    let guess = near(family, entries.iter().map(|it| it.name).chain(teams))
         .map_or_else(String::new, |near| format!("; did you mean `{near}{number}`?"));
     Failure::new(format!("there is no model `{name}`, and no file of this name{guess}")).help(
         "`cotama models` lists those that come with the program; or give the path of a PNML, JSON \
@@ -100,43 +162,93 @@ fn file(path: &str) -> Result<Found, Failure> {
     const WHAT: &str = "a model";
     let bytes = input::bytes(path, WHAT, input::MODEL_BYTES)?;
     kind::expect(path, &bytes, WHAT, &kind::MODELS)?;
+    if kind::is_of(&bytes, FileKind::TeamAtWork) {
+        let text = input::utf8(path, WHAT, bytes)?;
+        return protocol(path, &Scenario::parse(input::name(path), &text)?);
+    }
     let end = Path::new(path).extension().map(|end| end.to_string_lossy().to_lowercase());
-    let start = bytes.trim_ascii_start();
+    let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes).trim_ascii_start();
     let is_tina = || {
         let word = start.split(u8::is_ascii_whitespace).next().unwrap_or_default();
         word.starts_with(b"#") || [b"net", b"tr".as_slice(), b"pl", b"nt"].contains(&word)
     };
     match end.as_deref() {
         Some("json") => own(path, bytes),
-        Some("net") => time_net(path, &bytes),
-        Some("pnml" | "xml") => imported(path, &bytes),
+        Some("net") => time_net(path, bytes),
+        Some("pnml" | "xml") if !is_markup(&bytes) => Err(unlike(path, bytes)),
         _ if start.first() == Some(&b'{') => own(path, bytes),
-        _ if is_tina() => time_net(path, &bytes),
-        _ => imported(path, &bytes),
+        _ if is_tina() => time_net(path, bytes),
+        _ if is_markup(&bytes) => imported(path, &bytes),
+        _ => Err(unlike(path, bytes)),
     }
 }
 
+/// The protocol by which a team gives its tasks out.
+fn protocol(name: &str, scenario: &Scenario) -> Result<Found, Failure> {
+    let Some(Protocol { net, requirements, notes }) = Protocol::of(scenario) else {
+        return Err(Failure::of(input::name(name), team::too_large(scenario))
+            .help("the simulator runs it: `cotama run`, `cotama campaign`"));
+    };
+    Ok(Found::from(Loaded { notes, requirements, ..Loaded::new(net, None) }))
+}
+
+/// Whether a file begins with an element, in whatever encoding.
+fn is_markup(bytes: &[u8]) -> bool {
+    let is_mark = |it: &u8| matches!(it, 0 | 0xef | 0xbb | 0xbf | 0xfe | 0xff);
+    bytes.iter().find(|it| !is_mark(it) && !it.is_ascii_whitespace()) == Some(&b'<')
+}
+
+/// A file that begins like none of the formats of models.
+fn unlike(path: &str, bytes: Vec<u8>) -> Failure {
+    let text = match input::utf8(path, "a model", bytes) {
+        Ok(text) => text,
+        Err(refused) => return refused,
+    };
+    let lead = text.len() - text.trim_start().len();
+    let line = 1 + text[..lead].matches('\n').count();
+    let column = 1 + lead - text[..lead].rfind('\n').map_or(0, |it| it + 1);
+    let message = "this is neither PNML, JSON nor a .net of TINA".to_owned();
+    let errors = FileErrors::at(input::name(path), text, line, column, message);
+    errors.help("PNML begins with `<pnml`, JSON with `{`, and a .net with `net` or `tr`").into()
+}
+
 fn imported(path: &str, bytes: &[u8]) -> Result<Found, Failure> {
-    let Imported { net, place_ids, transition_ids } =
-        pnml::read_within(input::name(path), bytes, Limits::default())?;
-    Ok(Found::Net(Loaded { place_ids, transition_ids, ..Loaded::new(net, None) }))
+    let read = pnml::read_within(input::name(path), bytes, Limits::default())?;
+    let Imported { net, place_ids, transition_ids, extras, random, notes, .. } = read;
+    let labels = Box::new(Labels { invisible: read.invisible, shared: read.shared_names });
+    let loaded = Loaded { place_ids, transition_ids, labels, ..Loaded::new(net, None) };
+    Ok(Found::from(Loaded { extras, random, notes, ..loaded }))
 }
 
 fn own(path: &str, bytes: Vec<u8>) -> Result<Found, Failure> {
     let text = input::utf8(path, "a model", bytes)?;
     match json::read(&text) {
-        Ok(net) => Ok(Found::Net(Loaded::new(net, None))),
+        Ok(net) => Ok(Found::from(Loaded::new(net, None))),
         Err(error) => Err(refused(input::name(path), text, error)),
     }
 }
 
-fn time_net(path: &str, bytes: &[u8]) -> Result<Found, Failure> {
+/// A net of TINA; one without any interval is a plain net, as in PNML.
+fn time_net(path: &str, bytes: Vec<u8>) -> Result<Found, Failure> {
     let source = input::name(path);
-    tina::read(source, bytes).map(Found::Time).map_err(|error| {
-        let text = String::from_utf8_lossy(bytes).into_owned();
-        let at = (error.line, error.column);
-        FileErrors::at_character(source, text, at, error.message, error.help).into()
-    })
+    let text = input::utf8(path, "a model", bytes)?;
+    let net = match tina::read(source, text.as_bytes()) {
+        Ok(net) => net,
+        Err(error) => {
+            let at = (error.line, error.column);
+            let errors = FileErrors::at_character(source, text, at, error.message, error.help);
+            return Err(errors.into());
+        }
+    };
+    match played(path, &net) {
+        Ok(plain) if is_untimed(&net) => Ok(Found::from(Loaded::new(plain, None))),
+        _ => Ok(Found::Time(net)),
+    }
+}
+
+/// Whether no transition has an interval that excludes anything.
+pub(crate) fn is_untimed(net: &TimeNet) -> bool {
+    net.transitions().iter().all(|it| it.interval == Interval::ANY)
 }
 
 /// A time net as a net of milliseconds. One without any interval is a plain net, as in PNML.
@@ -157,7 +269,7 @@ pub(crate) fn played(path: &str, net: &TimeNet) -> Result<OwnedNet, Failure> {
         ))
         .help("`cotama check` and `cotama statespace` know what it means")
     })?;
-    if net.transitions().iter().all(|it| it.interval == Interval::ANY) {
+    if is_untimed(net) {
         played.transitions.iter_mut().for_each(|it| it.within = None);
     }
     Ok(played)
@@ -165,8 +277,12 @@ pub(crate) fn played(path: &str, net: &TimeNet) -> Result<OwnedNet, Failure> {
 
 fn refused(source: &str, text: String, error: JsonNetError) -> Failure {
     match error {
-        JsonNetError::Json { line, column, what } if line > 0 => {
-            FileErrors::at(source, text, line, column, what).into()
+        JsonNetError::Json { line, column, what, help } => {
+            let errors = FileErrors::at(source, text, line, column, what);
+            match help {
+                Some(help) => errors.help(help).into(),
+                None => errors.into(),
+            }
         }
         other => Failure::of(source, other.to_string())
             .help("`cotama export door --format json` shows how such a file looks"),

@@ -30,7 +30,11 @@ pub(crate) fn models(args: &ModelsArgs, screen: &Screen) -> Result<Exit, Failure
         Some(family) => (entry_row(&family), None),
         None => match model::find(name)? {
             Found::System(system) => (system_row(system), None),
-            Found::Net(it) => (net_row(name, &it.net.view().net(), it.known), Some(it.net)),
+            Found::Net(it) => {
+                let known = it.known;
+                let net = it.plain(name, "listed")?;
+                (net_row(name, &net.view().net(), known), Some(net))
+            }
             Found::Time(net) => {
                 let net = model::played(name, &net)?;
                 (net_row(name, &net.view().net(), None), Some(net))

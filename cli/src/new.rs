@@ -2,6 +2,8 @@
 //!
 //! The texts are the files in `templates/`, in which the name stands for the one that is wanted.
 
+mod board;
+
 use crate::answers::new::NewAnswer;
 use crate::args::{NewArgs, NewKind};
 use crate::exit::{Exit, Failure};
@@ -58,7 +60,7 @@ static BOARD: Template = Template {
     taken: &["net"],
 };
 
-/// Where the sources are in the templates, seen from the new crate.
+/// Path of the sources in the templates, seen from the new crate.
 const SOURCES: &str = "../cotama";
 
 /// Words that no crate or module can be called: of the language, of its libraries, of Cargo.
@@ -107,35 +109,38 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
                      {NAME}cotama fmeca {shown} --diagnosability{NAME:#}"
                 )
             };
-            (vec![file], next)
+            (vec![file], Some(next))
         }
         NewKind::Net | NewKind::System => {
             let template = if args.kind == NewKind::Net { &NET } else { &SYSTEM };
             refuse_to_replace(path)?;
-            let sources = sources(folder, args.sources.as_deref(), screen)?;
+            let sources = Sources::find(folder, args.sources.as_deref())?;
             let next = quoted(&path.display().to_string());
-            (
-                template.write(path, name, &sources)?,
-                format!("{NAME}cd {next} && cargo test{NAME:#}"),
-            )
+            let files = template.write(path, name, &sources.path, &[])?;
+            sources.noted(folder, screen);
+            (files, sources.with(&format!("cd {next} && cargo test")))
         }
         NewKind::Board => {
             let net = path.join("Cargo.toml");
             if !net.is_file() {
                 let message = format!("{}: there is no such crate", path.display());
                 return Err(Failure::new(message).help(format!(
-                    "a board plays a crate beside it: {NAME}cotama new net {}{NAME:#} makes one",
+                    "a board plays a crate beside it: `cotama new net {}` makes one",
                     quoted(&path.display().to_string())
                 )));
             }
             let board = path.with_file_name(format!("{name}-board"));
             refuse_to_replace(&board)?;
-            let sources = sources(folder, args.sources.as_deref(), screen)?;
+            let sources = match (&args.sources, board::sources(path)) {
+                (None, Some(seen)) => Sources { found: are_in(&path.join(&seen)), path: seen },
+                _ => Sources::find(folder, args.sources.as_deref())?,
+            };
+            let unchanged = NET.text("src/lib.rs", name);
+            let replaced = board::replaced(path, name, &unchanged)?;
             let next = quoted(&board.display().to_string());
-            (
-                BOARD.write(&board, name, &sources)?,
-                format!("{NAME}cd {next} && cargo run --release{NAME:#}"),
-            )
+            let files = BOARD.write(&board, name, &sources.path, &replaced)?;
+            sources.noted(folder, screen);
+            (files, sources.with(&format!("cd {next} && cargo run --release")))
         }
     };
     let files: Vec<_> = files.iter().map(|it| it.display().to_string()).collect();
@@ -147,28 +152,41 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
     for file in files {
         let _ = writeln!(text, "written: {file}");
     }
-    let _ = writeln!(text, "\nnext: {next}");
+    if let Some(next) = next {
+        let _ = writeln!(text, "\nnext: {next}");
+    }
     screen.print(&text)?;
     Ok(Exit::Success)
 }
 
 impl Template {
-    /// Writes a crate to a folder, all files or none.
-    fn write(&self, path: &Path, name: &str, sources: &str) -> Result<Vec<PathBuf>, Failure> {
+    /// The text of a file in a crate of this name.
+    fn text(&self, file: &str, name: &str) -> String {
+        let text = self.files.iter().find(|it| it.0 == file).map_or("", |it| it.1);
+        text.replace(&self.name.replace('-', "_"), &name.replace('-', "_")).replace(self.name, name)
+    }
+
+    /// Writes a crate to a folder, all files or none, with other lines in place of some.
+    fn write(
+        &self,
+        path: &Path,
+        name: &str,
+        sources: &str,
+        replaced: &[(String, String)],
+    ) -> Result<Vec<PathBuf>, Failure> {
         let part = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
-        let module = name.replace('-', "_");
         let written = self
             .files
             .iter()
-            .try_for_each(|(file, text)| {
-                let text = text
-                    .replace(&self.name.replace('-', "_"), &module)
-                    .replace(self.name, name)
-                    .replace(&format!("\"{SOURCES}/core\""), &quoted_path(sources, "core"))
-                    .replace(
-                        &format!("\"{SOURCES}/verification\""),
-                        &quoted_path(sources, "verification"),
-                    );
+            .try_for_each(|(file, _)| {
+                let mut text = self.text(file, name);
+                for room in ["core", "verification"] {
+                    let own = format!("\"{SOURCES}/{room}\"");
+                    text = text.replace(&own, &quoted_path(sources, room));
+                }
+                for (from, to) in replaced {
+                    text = text.replace(from.as_str(), to);
+                }
                 let file = part.join(file);
                 file.parent().map_or(Ok(()), fs::create_dir_all)?;
                 fs::write(file, text)
@@ -195,40 +213,65 @@ fn refuse_to_replace(path: &Path) -> Result<(), Failure> {
     Err(Failure::new(message).help("choose another name, or move it away"))
 }
 
-/// Where the sources are, seen from a new crate in this folder.
-fn sources(folder: &Path, wanted: Option<&Path>, screen: &Screen) -> Result<String, Failure> {
-    let are_in = |path: &Path| {
-        let manifest = fs::read_to_string(path.join("core/Cargo.toml")).unwrap_or_default();
-        manifest.contains("name = \"cotama-core\"")
-    };
-    if let Some(wanted) = wanted {
-        if !are_in(wanted) {
-            let message = format!("--sources {}: there is no cotama", wanted.display());
-            return Err(Failure::new(message)
-                .help("give the folder of this project's sources, with `core` in it"));
+/// Returns whether the sources of this project are in a folder.
+fn are_in(path: &Path) -> bool {
+    let manifest = fs::read_to_string(path.join("core/Cargo.toml")).unwrap_or_default();
+    manifest.contains("name = \"cotama-core\"")
+}
+
+/// Path of the sources, seen from a new crate.
+struct Sources {
+    path: String,
+    /// Says that they are there now.
+    found: bool,
+}
+
+impl Sources {
+    /// Finds them for a crate in this folder.
+    fn find(folder: &Path, wanted: Option<&Path>) -> Result<Self, Failure> {
+        let found = |path| Self { path, found: true };
+        if let Some(wanted) = wanted {
+            if !are_in(wanted) {
+                let message = format!("--sources {}: there is no cotama", wanted.display());
+                return Err(Failure::new(message)
+                    .help("give the folder of this project's sources, with `core` in it"));
+            }
+            let whole = wanted.canonicalize().ok().and_then(|it| it.to_str().map(str::to_owned));
+            return whole.map(found).ok_or_else(|| {
+                let message = format!("--sources {}: this is no text in UTF-8", wanted.display());
+                Failure::new(message)
+            });
         }
-        let whole = wanted.canonicalize().ok().and_then(|it| it.to_str().map(str::to_owned));
-        return whole.ok_or_else(|| {
-            Failure::new(format!("--sources {}: this is no text in UTF-8", wanted.display()))
-        });
+        let places = [(SOURCES, "cotama"), ("..", "."), ("../..", "..")];
+        let seen = places.into_iter().find(|(_, from)| are_in(&folder.join(from)));
+        Ok(seen.map_or_else(
+            || Self { path: SOURCES.to_owned(), found: false },
+            |(seen, _)| found(seen.to_owned()),
+        ))
     }
-    let places = [(SOURCES, "cotama"), ("..", "."), ("../..", "..")];
-    if let Some((seen, _)) = places.into_iter().find(|(_, from)| are_in(&folder.join(from))) {
-        return Ok(seen.to_owned());
+
+    /// Says where they are expected, where they are not.
+    fn noted(&self, folder: &Path, screen: &Screen) {
+        if !self.found {
+            screen.note(&format!(
+                "note: the sources of cotama are expected beside the crate, at {}; --sources says \
+                 where else, or the two paths in its Cargo.toml",
+                folder.join("cotama").display()
+            ));
+        }
     }
-    screen.note(&format!(
-        "note: the sources of cotama are expected beside the crate, at {}; --sources says where \
-         else, or the two paths in its Cargo.toml",
-        folder.join("cotama").display()
-    ));
-    Ok(SOURCES.to_owned())
+
+    /// A command that needs them, where it works.
+    fn with(&self, command: &str) -> Option<String> {
+        self.found.then(|| format!("{NAME}{command}{NAME:#}"))
+    }
 }
 
 fn is_crate(kind: NewKind) -> bool {
     matches!(kind, NewKind::Net | NewKind::System | NewKind::Board)
 }
 
-/// What a kind that is one file is called.
+/// Returns the file name of a kind that is one file.
 const fn one_file(kind: NewKind) -> &'static str {
     match kind {
         NewKind::Fmeca => "an FMECA",

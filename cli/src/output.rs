@@ -7,17 +7,19 @@ use crate::input::{folder_of, plain};
 use crate::names::quoted;
 use crate::render::fold::folded;
 use crate::render::snippet;
+use crate::render::style::terminal;
 use anstream::{AutoStream, ColorChoice};
+use cotama_core::text;
 use serde::Serialize;
 use std::fs;
 use std::io::{self, ErrorKind, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The width where none is known, and the least that is used.
 const WIDTH: usize = 100;
 const LEAST_WIDTH: usize = 40;
 
-/// Where people and programs read the answers.
+/// The screen: where people and programs read the answers.
 #[derive(Debug)]
 pub(crate) struct Screen {
     choice: ColorChoice,
@@ -43,7 +45,13 @@ impl Screen {
     /// Writes to standard output, in lines that fit; styles are left out where they are not wanted.
     /// A reader who has gone away is no error.
     pub(crate) fn print(&self, text: &str) -> Result<(), Failure> {
-        let text = folded(text, self.width);
+        let text = terminal(&folded(text, self.width));
+        written(write_to(&mut AutoStream::new(io::stdout(), self.choice), text.as_bytes()))
+    }
+
+    /// Writes what the program itself says of its command line to standard output.
+    pub(crate) fn printed(&self, own: &clap::builder::StyledStr) -> Result<(), Failure> {
+        let text = own.ansi().to_string();
         written(write_to(&mut AutoStream::new(io::stdout(), self.choice), text.as_bytes()))
     }
 
@@ -52,17 +60,22 @@ impl Screen {
         let text = serde_json::to_string_pretty(answer).map_err(|error| {
             Failure::new(format!("the answer cannot be written as JSON: {error}"))
         })?;
-        Self::raw(format!("{text}\n").as_bytes())
+        // Escaped, it is the same text for a program, and none that a terminal obeys.
+        Self::raw(format!("{}\n", text::json(&text)).as_bytes())
     }
 
-    /// Writes to standard output as it is.
+    /// Writes to standard output as it is: a file in a format whose writer escapes names.
     pub(crate) fn raw(bytes: &[u8]) -> Result<(), Failure> {
         written(write_to(&mut io::stdout(), bytes))
     }
 
     /// Writes a note to standard error. Who cannot read it does not miss the answer.
     pub(crate) fn note(&self, text: &str) {
-        let _ = writeln!(AutoStream::new(io::stderr(), self.choice), "{text}");
+        self.say(&terminal(text));
+    }
+
+    fn say(&self, codes: &str) {
+        let _ = writeln!(AutoStream::new(io::stderr(), self.choice), "{codes}");
     }
 
     /// Says why a command cannot do its work: to a program as an object on standard output, else
@@ -75,7 +88,7 @@ impl Screen {
 
     /// Says on standard error why something cannot be done.
     pub(crate) fn explain(&self, failure: &Failure) {
-        self.note(&snippet::failure(failure, self.width));
+        self.say(&snippet::failure(failure, self.width));
     }
 }
 
@@ -110,7 +123,7 @@ pub(crate) fn place(path: &Path) -> Result<(), Failure> {
     if path.file_name().is_none() {
         return Err(wrong(path, "this is not the name of a file"));
     }
-    there(folder_of(path))
+    there(folder_of(&target(path)?))
 }
 
 /// A place for the folder of a report, which is made if it is not there.
@@ -161,18 +174,36 @@ pub(crate) fn replaced(
     path: &Path,
     write: impl FnOnce(&mut fs::File) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
+    let target = target(path)?;
     let mut temporary = std::ffi::OsString::from(".");
-    temporary.push(path.file_name().unwrap_or_default());
+    temporary.push(target.file_name().unwrap_or_default());
     temporary.push(format!(".{}.part", std::process::id()));
-    let temporary = folder_of(path).join(temporary);
+    let temporary = folder_of(&target).join(temporary);
     let wrong = |error: io::Error| unwritten(path, &error);
+    // The new file has the permissions of the old one, and no others.
+    let mode = target.metadata().ok().map(|it| it.permissions());
     let whole = fs::File::create(&temporary)
+        .and_then(|file| mode.map_or(Ok(()), |it| file.set_permissions(it)).map(|()| file))
         .map_err(wrong)
         .and_then(|mut file| write(&mut file))
-        .and_then(|()| fs::rename(&temporary, path).map_err(wrong));
+        .and_then(|()| fs::rename(&temporary, &target).map_err(wrong));
     whole.inspect_err(|_| {
         let _ = fs::remove_file(&temporary);
     })
+}
+
+/// The file that a path names: of a symbolic link the one that it leads to, there or not.
+fn target(path: &Path) -> Result<PathBuf, Failure> {
+    /// As many links as Linux follows.
+    const MOST: usize = 40;
+    let mut target = path.to_owned();
+    for _ in 0..MOST {
+        match fs::read_link(&target) {
+            Ok(next) => target = folder_of(&target).join(next),
+            Err(_) => return Ok(target),
+        }
+    }
+    Err(wrong(path, "this symbolic link leads to links without end"))
 }
 
 /// Makes a folder, and those that it is in.

@@ -2,50 +2,49 @@
 
 use crate::allocate::exit;
 use crate::answers::{ActivityRow, FrontRow, PlanAnswer, PlanRow, Reason, Status};
-use crate::args::{AllocatorName, Objective as Wanted, PlanArgs};
+use crate::args::{Objective as Wanted, PlanArgs, STEPS};
 use crate::exit::{Exit, Failure};
 use crate::infeasible;
-use crate::mission::{self, Loaded};
+use crate::mission;
 use crate::output::Screen;
 use crate::render;
 use crate::solve::{Method, Solution, Verdict, solve};
 use crate::words::Words;
-use cotama_core::exact::Objective;
 use cotama_core::front::{Front, Node};
 use cotama_core::problem::{Candidate, Problem};
 use cotama_models::missions::tables::{DURATION, ENERGY};
-use cotama_models::missions::{Mission, PlannedActivity};
+use cotama_models::missions::{Mission, PlannedActivity, Remaining};
+use cotama_sim::options::{Aim, Planner};
+use cotama_sim::solver::{MIN_ENERGY, QUALITY};
 
 /// Splits a mission into activities and plans it.
 pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
-    let loaded = mission::load_for(&args.mission.mission, &args.planning)?;
-    let answer = answer(args, &loaded)?;
+    mission::pursued(args.objective, args.planning.allocator)?;
+    if args.objective == Some(Wanted::Front) && args.planning.steps != STEPS {
+        let message = "--steps with --objective front: its search is bounded by partial plans";
+        return Err(Failure::new(message).help("leave --steps out"));
+    }
+    let mission = mission::load_for(&args.mission.mission, &args.planning)?;
+    let answer = answer(args, &mission)?;
     if args.json.json {
         Screen::json(&answer)?;
     } else {
-        let supervised = loaded.mission.supervisor().is_some();
+        let supervised = mission.supervisor().is_some();
         let next = Words::of_plan(args).after_plan(&answer, args.planning.steps, supervised);
         screen.print(&render::plan::screen(&answer, next, screen.width()))?;
     }
     Ok(exit(answer.status))
 }
 
-fn answer(args: &PlanArgs, loaded: &Loaded) -> Result<PlanAnswer, Failure> {
-    let mission = &loaded.mission;
+fn answer(args: &PlanArgs, mission: &Mission) -> Result<PlanAnswer, Failure> {
     let objective = mission::objective(args.objective, args.planning.allocator, mission);
     let lost = mission::lost(mission, &args.planning.lost)?;
     let available = mission::available(mission, &lost);
     let scenario = mission.scenario();
-    let candidates: Vec<Vec<Candidate<2>>> = scenario
+    let counts: Vec<usize> = scenario
         .activities
         .iter()
-        .map(|activity| {
-            let whole = activity.table();
-            let candidate = |(id, it): (u16, &_)| whole_candidate(&whole, it, id);
-            let left =
-                (0..).zip(&activity.alternatives).filter(|(_, it)| available.covers(it.needs));
-            left.filter_map(candidate).collect()
-        })
+        .map(|it| it.alternatives.iter().filter(|it| available.covers(it.needs)).count())
         .collect();
     let mut answer = PlanAnswer {
         schema: "cotama/plan/1",
@@ -53,12 +52,14 @@ fn answer(args: &PlanArgs, loaded: &Loaded) -> Result<PlanAnswer, Failure> {
         activities: scenario
             .activities
             .iter()
-            .zip(&candidates)
-            .map(|(activity, left)| activity_row(mission, activity, left.len()))
+            .zip(&counts)
+            .map(|(activity, &left)| activity_row(mission, activity, left))
             .collect(),
-        combinations: candidates
+        speed_robot_mm_s: mission.robot.speed_max.0,
+        speed_harmless_mm_s: mission.robot.speed_harmless.0,
+        combinations: counts
             .iter()
-            .try_fold(1u128, |product, left| product.checked_mul(left.len() as u128))
+            .try_fold(1u128, |product, &left| product.checked_mul(left as u128))
             .map_or_else(|| "more than 2^128".into(), |product| product.to_string()),
         objective: objective.name(),
         allocator: None,
@@ -76,14 +77,16 @@ fn answer(args: &PlanArgs, loaded: &Loaded) -> Result<PlanAnswer, Failure> {
         front: None,
         reason: None,
     };
-    let slices: Vec<_> = candidates.iter().map(Vec::as_slice).collect();
-    if let Ok(problem) = Problem::new(&slices, scenario.limits, scenario.order) {
+    let candidates = Remaining::new(&scenario.activities(), None, available);
+    let lists = candidates.as_ref().map(Remaining::lists).unwrap_or_default();
+    // Without candidates there is no problem, but a reason.
+    if let Ok(problem) = Problem::new(&lists, scenario.limits, scenario.order)
+        && !lists.is_empty()
+    {
         if objective == Wanted::Front {
             front(&mut answer, mission, &problem);
         } else {
-            let failed =
-                |error: cotama_core::allocation::MemoryError| Failure::new(error.to_string());
-            let solution = solve_for(objective, args, &problem).map_err(failed)?;
+            let solution = solve_for(objective, args, &problem)?;
             fill(&mut answer, mission, &problem, &solution, args.planning.steps);
         }
     }
@@ -91,14 +94,6 @@ fn answer(args: &PlanArgs, loaded: &Loaded) -> Result<PlanAnswer, Failure> {
         answer.reason = infeasible::explain(mission, mission.limits, available).or(answer.reason);
     }
     Ok(answer)
-}
-
-fn whole_candidate(
-    activity: &cotama_models::missions::tables::Activity<'_>,
-    alternative: &cotama_models::missions::tables::Alternative,
-    id: u16,
-) -> Option<Candidate<2>> {
-    alternative.candidate(activity.whole(alternative), id)
 }
 
 fn activity_row(mission: &Mission, activity: &PlannedActivity, left: usize) -> ActivityRow {
@@ -120,16 +115,15 @@ fn solve_for(
     objective: Wanted,
     args: &PlanArgs,
     problem: &Problem<'_, 2>,
-) -> Result<Solution, cotama_core::allocation::MemoryError> {
-    let quality = [Objective::MostQuality, Objective::Least(ENERGY)];
-    let energy = [Objective::Least(ENERGY), Objective::MostQuality];
-    let method = match (objective, args.planning.allocator) {
-        (Wanted::Paper, Some(AllocatorName::Exact)) => Method::RuleThenExact,
-        (Wanted::Paper, _) | (_, Some(AllocatorName::Panorama)) => Method::Rule,
-        (Wanted::MinEnergy, _) => Method::Exact(&energy),
-        _ => Method::Exact(&quality),
+) -> Result<Solution, Failure> {
+    let allocator = args.planning.allocator;
+    let method = match mission::planner(objective, allocator, args.planning.steps)? {
+        Planner::Panorama => Method::Rule,
+        Planner::PanoramaThenExact { .. } => Method::RuleThenExact,
+        Planner::Exact { aim: Aim::MinEnergy, .. } => Method::Exact(&MIN_ENERGY),
+        Planner::Exact { aim: Aim::Quality, .. } => Method::Exact(&QUALITY),
     };
-    solve(problem, method, args.planning.steps)
+    solve(problem, method, args.planning.steps).map_err(|error| Failure::new(error.to_string()))
 }
 
 fn fill(
@@ -247,14 +241,14 @@ mod tests {
         let Command::Plan(args) = Cli::parse_from(["cotama", "plan", "patrol"]).command else {
             unreachable!("`plan` is the command")
         };
-        let loaded = mission::load_for(&args.mission.mission, &args.planning).unwrap();
-        let mut answer = answer(&args, &loaded).unwrap();
+        let mission = mission::load_for(&args.mission.mission, &args.planning).unwrap();
+        let mut answer = answer(&args, &mission).unwrap();
         let candidate =
             |it| Candidate { cost: [it, ways - 1 - it], quality: 0, id: (it % 2) as u16 };
         let ways: Vec<_> = (0..ways).map(candidate).collect();
         let activities = [&ways[..]; 2];
         let problem = Problem::new(&activities, [1 << 20; 2], [0, 1]).unwrap();
-        front(&mut answer, &loaded.mission, &problem);
+        front(&mut answer, &mission, &problem);
         answer
     }
 

@@ -1,5 +1,6 @@
 //! How far a search is, on a terminal.
 
+use crate::output::width;
 use crate::render::numbers::grouped;
 use crate::render::visible;
 use cotama_verification::explicit;
@@ -10,12 +11,45 @@ use std::time::{Duration, Instant};
 /// How often the line is written.
 const EVERY: Duration = Duration::from_millis(100);
 
-/// A line on standard error that says how far a search is; nothing where that is no terminal.
+/// A line on standard error that is written again and again; nothing where that is no terminal.
+#[derive(Debug)]
+pub(crate) struct Line {
+    is_shown: bool,
+    written: Cell<Option<Instant>>,
+}
+
+impl Line {
+    pub(crate) fn new() -> Self {
+        Self { is_shown: io::stderr().is_terminal(), written: Cell::new(None) }
+    }
+
+    /// Writes a text in place of the one before, unless one was written, or this began, just now.
+    pub(crate) fn write(&self, begun: Instant, text: impl FnOnce(Duration) -> String) {
+        let now = Instant::now();
+        let last = self.written.get().unwrap_or(begun);
+        if !self.is_shown || now.saturating_duration_since(last) < EVERY {
+            return;
+        }
+        self.written.set(Some(now));
+        // A longer text would begin a second line, which the next one does not replace.
+        let text: String =
+            text(now.saturating_duration_since(begun)).chars().take(width()).collect();
+        let _ = write!(io::stderr(), "\r{text}\u{1b}[K");
+    }
+
+    /// Takes the text away.
+    pub(crate) fn clear(&self) {
+        if self.written.take().is_some() {
+            let _ = write!(io::stderr(), "\r\u{1b}[K");
+        }
+    }
+}
+
+/// How far a search is.
 #[derive(Debug)]
 pub(crate) struct Progress {
-    is_shown: bool,
+    line: Line,
     begun: Cell<Instant>,
-    written: Cell<Option<Instant>>,
     before: Cell<u64>,
     /// Which of several questions it is about.
     of: RefCell<String>,
@@ -24,13 +58,8 @@ pub(crate) struct Progress {
 impl Progress {
     /// Nothing is shown yet.
     pub(crate) fn new() -> Self {
-        Self {
-            is_shown: io::stderr().is_terminal(),
-            begun: Cell::new(Instant::now()),
-            written: Cell::new(None),
-            before: Cell::new(0),
-            of: RefCell::default(),
-        }
+        let (line, of) = (Line::new(), RefCell::default());
+        Self { line, begun: Cell::new(Instant::now()), before: Cell::new(0), of }
     }
 
     /// The next of so many questions begins.
@@ -45,27 +74,17 @@ impl Progress {
 
     /// Shows how far a search is, now and then.
     pub(crate) fn show(&self, progress: explicit::Progress) {
-        if !self.is_shown {
-            return;
-        }
-        let now = Instant::now();
         if progress.states < self.before.replace(progress.states) {
-            self.begun.set(now); // another search
+            self.begun.set(Instant::now()); // another search
         }
-        let last = self.written.get().unwrap_or(self.begun.get());
-        if now.duration_since(last) < EVERY {
-            return;
-        }
-        self.written.set(Some(now));
-        let line = line(progress, now.duration_since(self.begun.get()), resident_mib());
-        let _ = write!(io::stderr(), "\r{}{line}\u{1b}[K", self.of.borrow());
+        self.line.write(self.begun.get(), |passed| {
+            format!("{}{}", self.of.borrow(), line(progress, passed, resident_mib()))
+        });
     }
 
     /// Takes the line away.
     pub(crate) fn clear(&self) {
-        if self.written.take().is_some() {
-            let _ = write!(io::stderr(), "\r\u{1b}[K");
-        }
+        self.line.clear();
     }
 }
 
@@ -96,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_line_says_how_much_how_fast_and_what_waits() {
+    fn the_line_says_how_much_how_fast_and_how_much_waits() {
         let progress = explicit::Progress { states: 1_500_000, depth: 12, waiting: 40_000 };
         let said = line(progress, Duration::from_millis(500), Some(2048));
         assert_eq!(

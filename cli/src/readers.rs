@@ -1,4 +1,4 @@
-//! What the program itself reads, for fuzz targets: the other readers are in libraries.
+//! The readers of the program itself, for fuzz targets: the other readers are in libraries.
 
 use crate::allocate::instance;
 use crate::campaign::mutants;

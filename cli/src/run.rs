@@ -6,16 +6,18 @@ use crate::exit::{Exit, Failure};
 use crate::infeasible;
 use crate::input;
 use crate::kind::{self, Kind};
-use crate::mission::{self, Loaded};
+use crate::mission;
 use crate::names;
 use crate::output::{self, Screen};
 use crate::render;
-use crate::words::Words;
-use cotama_core::monitor::Upward;
+use crate::render::numbers::count;
+use crate::team::Chosen;
+use crate::words;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::Mission;
-use cotama_models::missions::faults::{Event, EventKind, Faults};
-use cotama_sim::options::{FaultChoice, Options};
+use cotama_models::missions::faults::{Event, EventKind, Faults, FaultsFile};
+use cotama_sim::campaign::subject::Policy;
+use cotama_sim::options::{FaultChoice, Options, upward};
 use cotama_sim::report;
 use cotama_sim::run::{NoPlan, Reason, Run};
 use cotama_sim::trace::{RecordError, Trace};
@@ -26,7 +28,7 @@ mod supervised;
 mod team;
 
 pub(crate) use body::body;
-pub(crate) use team::Team;
+pub(crate) use team::{replay as replay_team, replay_faults};
 
 /// Plans a mission, runs it and reports.
 pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
@@ -36,51 +38,71 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
     if let Some(folder) = &args.report {
         output::report(folder)?;
     }
-    if let Some(team) = Team::named(&args.mission.mission) {
-        return team::run(args, team, screen);
+    if let Some(team) = Chosen::of(&args.mission.mission)? {
+        return team::run(args, &team, screen);
     }
     team::none_given(args)?;
     team::not_meant(&args.mission.mission)?;
-    let loaded = mission::load_for(&args.mission.mission, &args.planning)?;
-    let options = options(args, &loaded.mission)?;
-    match (loaded.mission.supervisor(), passed_over(&options.faults, &loaded.mission)) {
+    mission::pursued(args.objective, args.planning.allocator)?;
+    let mission = mission::load_for(&args.mission.mission, &args.planning)?;
+    let options = options(args, &mission)?;
+    if let Some(note) = planned_otherwise(args, &options, &mission) {
+        screen.note(&note);
+    }
+    match (mission.supervisor(), passed_over(&options.faults, &mission)) {
         (_, 0) => {}
         (None, number) => screen.note(&format!(
-            "{number} failures and answers of the operator are not simulated: the mission is run \
-             by its plans alone"
+            "not simulated: {} for supervisors; the mission is run by its plans alone",
+            count(number as u64, "event")
         )),
         (Some(_), number) => screen.note(&format!(
-            "{number} faults that only plans know are not simulated: the mission is run by its \
-             supervisors"
+            "not simulated: {} that only plans know; the mission is run by its supervisors",
+            count(number as u64, "fault")
         )),
     }
-    let (trace, run) = match Trace::record(&loaded.source, &loaded.text, &options) {
+    let (trace, run) = match Trace::record(&mission, &options) {
         Ok(recorded) => recorded,
         Err(RecordError::Infeasible { reason, text }) => {
-            return never_left(args, screen, &loaded, reason, text);
+            return never_left(args, screen, &mission, reason, text);
         }
         Err(error) => return Err(refused(error)),
     };
-    let mut body = body(&trace, &run, &loaded.mission.name);
+    let mut body = body(&trace, &run, &mission.name);
     if run.outcome == cotama_sim::run::Outcome::Safe
         && run.x_mm == 0
         && !args.planning.lost.is_empty()
     {
-        let lost = mission::lost(&loaded.mission, &args.planning.lost)?;
-        let available = mission::available(&loaded.mission, &lost);
-        body.infeasible = infeasible::explain(&loaded.mission, loaded.mission.limits, available);
+        let lost = mission::lost(&mission, &args.planning.lost)?;
+        let available = mission::available(&mission, &lost);
+        body.infeasible = infeasible::explain(&mission, mission.limits, available);
     }
-    let report = args.report.clone().unwrap_or_else(|| default_folder(&loaded.source));
+    let report = args.report.clone().unwrap_or_else(|| default_folder(mission.source()));
     let report = (!args.no_report).then_some(report.as_path());
-    write_files(report, args.trace.as_deref(), &trace, &mut body)?;
+    write_files(report, args.trace.as_deref(), &trace, None, &mut body)?;
     let answer = RunAnswer { schema: "cotama/run/1", run: body };
     if args.json.json {
         Screen::json(&answer)?;
     } else {
-        let next = next(args, &loaded.mission, &answer.run);
+        let next = next(args, &mission, &answer.run);
         screen.print(&render::run::screen(&answer.run, Some(&trace), next, screen.width()))?;
     }
     Ok(ended(&run))
+}
+
+/// Returns the hint that a file of faults records a failure of another planner.
+fn planned_otherwise(args: &RunArgs, options: &Options, mission: &Mission) -> Option<String> {
+    let text = input::text(&args.faults, "a file of faults", input::MISSION_BYTES);
+    let text = text.ok().filter(|_| matches!(options.faults, FaultChoice::Given { .. }))?;
+    let policy = Policy::from(&FaultsFile::parse(&args.faults, &text, mission).ok()?.planner?);
+    let same = Some(policy.of(mission)) == options.planner
+        && (policy.rigid, policy.upward) == (options.rigid, options.upward.is_some());
+    (!same).then(|| {
+        format!(
+            "{} records a failure with another planner: {}; `cotama replay` runs it with that one",
+            args.faults,
+            policy.words(mission)
+        )
+    })
 }
 
 /// The command that suggests itself.
@@ -89,7 +111,20 @@ fn next(args: &RunArgs, mission: &Mission, body: &RunBody) -> Option<String> {
         return Some(format!("cotama replay {}", names::quoted(trace)));
     }
     let objective = mission::objective(args.objective, args.planning.allocator, mission);
-    Words::of_run(args).after_run(body, objective.name())
+    words::after_run(args, body, objective.name(), |args| helps(args, body))
+}
+
+/// Returns whether a run with these options is completed, or leaves where this one did not; the run
+/// is made, and nothing of it is written.
+fn helps(args: &RunArgs, body: &RunBody) -> bool {
+    let made = || {
+        let mission = mission::load_for(&args.mission.mission, &args.planning).ok()?;
+        let options = options(args, &mission).ok()?;
+        let (_, run) = Trace::record(&mission, &options).ok()?;
+        let completed = run.outcome == cotama_sim::run::Outcome::Completed;
+        Some(completed || body.x_mm == 0 && run.x_mm > 0)
+    };
+    made().unwrap_or(false)
 }
 
 /// The exit code of a run.
@@ -105,9 +140,9 @@ pub(crate) fn ended(run: &Run) -> Exit {
 pub(crate) fn refused(error: RecordError) -> Failure {
     match error {
         RecordError::Text(errors) => errors.into(),
-        RecordError::Setup(_) | RecordError::Unsupervised(_) | RecordError::Infeasible { .. } => {
-            Failure::new(error.to_string())
-        }
+        RecordError::Setup(_) | RecordError::Unsupervised(_) => Failure::new(error.to_string()),
+        RecordError::Infeasible { .. } => Failure::new(error.to_string())
+            .help("`cotama plan MISSION` says what weighs most, and what would help"),
     }
 }
 
@@ -115,11 +150,10 @@ pub(crate) fn refused(error: RecordError) -> Failure {
 fn never_left(
     args: &RunArgs,
     screen: &Screen,
-    loaded: &Loaded,
+    mission: &Mission,
     reason: NoPlan,
     text: String,
 ) -> Result<Exit, Failure> {
-    let mission = &loaded.mission;
     let body = RunBody {
         mission: mission.name.clone(),
         seed: args.seed,
@@ -161,23 +195,18 @@ fn options(args: &RunArgs, mission: &Mission) -> Result<Options, Failure> {
     }
     let allocator = args.planning.allocator;
     let objective = mission::objective(args.objective, allocator, mission);
-    let planner = mission::planner(objective, allocator, args.planning.steps);
-    // A better plan is looked for when a margin has grown by a hundredth of its limit, and leaves
-    // half of that.
-    let upward = Upward {
-        growth: mission.limits.map(|limit| (limit / 100).max(1)),
-        reserve: mission.limits.map(|limit| limit / 200),
-    };
+    let planner = mission::planner(objective, allocator, args.planning.steps)?;
     Ok(Options {
         seed: args.seed,
         faults: faults(&args.faults, &args.planning.lost, mission)?,
         monitor_period: args.monitor_period.map(Millis),
-        planner,
-        upward: args.upward.then_some(upward),
+        planner: Some(planner),
+        rigid: false,
+        upward: args.upward.then(|| upward(mission.limits)),
     })
 }
 
-/// What goes wrong: the faults that were named, with hardware lost at the start.
+/// Returns the faults of a run: those that were named, with hardware lost at the start.
 fn faults(named: &str, lost: &[Lost], mission: &Mission) -> Result<FaultChoice, Failure> {
     let choice = match named {
         "script" => FaultChoice::Script,
@@ -185,7 +214,8 @@ fn faults(named: &str, lost: &[Lost], mission: &Mission) -> Result<FaultChoice, 
         path => {
             let (limit, wanted) = (input::MISSION_BYTES, [Kind::Faults]);
             let text = kind::text(path, "a file of faults", limit, &wanted)?;
-            FaultChoice::Given { source: path.into(), faults: Faults::parse(path, &text, mission)? }
+            let file = FaultsFile::parse(path, &text, mission)?;
+            FaultChoice::Given { source: path.into(), faults: file.faults }
         }
     };
     if lost.is_empty() {
@@ -217,11 +247,13 @@ fn passed_over(faults: &FaultChoice, mission: &Mission) -> usize {
     }
 }
 
-/// Writes the report and the trace where they are wanted, and notes it in the answer.
+/// Writes the report and the trace where they are wanted, and notes it in the answer. `stored` is
+/// the file of the trace, if the run was made from one.
 pub(crate) fn write_files(
     folder: Option<&Path>,
     trace_file: Option<&Path>,
     trace: &Trace,
+    stored: Option<&str>,
     body: &mut RunBody,
 ) -> Result<(), Failure> {
     if let Some(path) = trace_file {
@@ -231,7 +263,8 @@ pub(crate) fn write_files(
     if let Some(folder) = folder {
         output::make_folder(folder)?;
         let path = folder.join("index.html");
-        output::file(&path, report::html(trace).as_bytes())?;
+        let written = body.trace.as_deref().or(stored).map(names::quoted);
+        output::file(&path, report::html_beside(trace, written.as_deref()).as_bytes())?;
         body.report = Some(path.display().to_string());
     }
     Ok(())

@@ -12,6 +12,7 @@ use crate::input;
 use crate::model;
 use crate::output::{self, Screen};
 use crate::render;
+use cotama_core::text;
 use cotama_core::units::Millis;
 use cotama_verification::conform::SCHEMA;
 use cotama_verification::play::{Fired, NotPlayed, Numbered};
@@ -22,7 +23,7 @@ use step::{Step, Words};
 
 /// Plays a net or a system.
 pub(crate) fn simulate(args: &SimulateArgs, screen: &Screen) -> Result<Exit, Failure> {
-    let numbered = model::with_system(&args.model.model, Numbered::of)?;
+    let numbered = model::with_system(&args.model.model, |it, _| Numbered::of(it))?;
     let taken = args.model.model == "-";
     let here = || std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
     let by_hand = args.interactive
@@ -91,7 +92,8 @@ fn said(
     let played = begun.and_then(|()| play(&mut session, steps));
     let answer = session.answer(by_name, played.is_ok(), 0);
     if let Some(path) = &args.trace {
-        output::file(path, recording(&answer).as_bytes())?;
+        let lines = text::json(&recording(&answer)).to_string();
+        output::file(path, lines.as_bytes())?;
     }
     if args.json.json {
         Screen::json(&answer)?;
@@ -101,7 +103,7 @@ fn said(
     Ok(ended(&answer, args.strict))
 }
 
-/// What was played, for `cotama conform`.
+/// Returns the recording of the session, for `cotama conform`.
 fn recording(answer: &SimulateAnswer) -> String {
     let mut lines = vec![json!({ "schema": SCHEMA })];
     for step in &answer.steps {

@@ -1,13 +1,10 @@
 //! The allocators behind one call, with their memory.
 
 use crate::answers::Status;
-use cotama_core::allocation::{Allocator, Answer, MemoryError, Planned, Shortfall};
-use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
-use cotama_core::panorama::Panorama;
+use cotama_core::allocation::{Answer, MemoryError, Planned, Shortfall};
+use cotama_core::exact::Objective;
 use cotama_core::problem::Problem;
-
-/// How many nodes a search may remember: 10 MiB.
-const SEEN: usize = 1 << 18;
+use cotama_sim::solver::Solver;
 
 /// How a plan is looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,16 +17,16 @@ pub(crate) enum Method<'o> {
     Exact(&'o [Objective]),
 }
 
-/// What came of it.
+/// The outcome of a solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
     /// A plan.
     Planned {
         planned: Planned<2>,
-        /// Who found it.
+        /// Allocator that found the plan.
         allocator: &'static str,
     },
-    /// It is proven that there is none.
+    /// No plan exists, which is proven.
     Infeasible {
         /// Which limit cannot be met, if the steps sufficed to know.
         shortfall: Option<Shortfall>,
@@ -58,7 +55,7 @@ impl Solution {
         match self.verdict {
             Verdict::Planned { planned, .. } if planned.optimal => Status::Optimal,
             Verdict::Planned { .. } => Status::Feasible,
-            // What the rule says was asked for; the reason says that the rule is wrong.
+            // The answer of the rule was asked for; the reason says that the rule is wrong.
             Verdict::Infeasible { .. } | Verdict::Missed => Status::Infeasible,
             Verdict::Unknown { .. } => Status::Unknown,
         }
@@ -138,10 +135,9 @@ fn without(verdict: Verdict, steps: u64) -> Solution {
 }
 
 fn panorama(problem: &Problem<'_, 2>) -> Result<(Answer<2>, Vec<u16>), MemoryError> {
-    let activities = problem.activities();
-    let (mut caps, mut plan) = (vec![[0; 2]; activities.len()], vec![0; activities.len()]);
-    let answer = Panorama::new(&mut caps).allocate(problem, &mut plan)?;
-    Ok((answer, plan))
+    let mut solver = Solver::default();
+    let answer = solver.rule(problem)?;
+    Ok((answer, solver.plan().to_vec()))
 }
 
 fn exact(
@@ -149,15 +145,9 @@ fn exact(
     objectives: &[Objective],
     steps: u64,
 ) -> Result<(Answer<2>, Vec<u16>), MemoryError> {
-    let activities = problem.activities();
-    let candidates = activities.iter().map(|candidates| candidates.len()).sum();
-    let (mut items, mut stages) =
-        (vec![Item::EMPTY; candidates], vec![Stage::EMPTY; activities.len()]);
-    let mut plan = vec![0; activities.len()];
-    let mut seen = vec![Seen::EMPTY; SEEN];
-    let mut exact = Exact::new(objectives, steps, &mut items, &mut stages).with_memory(&mut seen);
-    let answer = exact.allocate(problem, &mut plan)?;
-    Ok((answer, plan))
+    let mut solver = Solver::default();
+    let answer = solver.exact(problem, objectives, steps)?;
+    Ok((answer, solver.plan().to_vec()))
 }
 
 #[cfg(test)]
@@ -181,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn where_the_rule_fails_a_search_finds_the_plan_that_fills_the_last_limit() {
+    fn a_search_finds_the_plan_that_fills_the_last_limit_if_the_rule_fails() {
         missed(|problem| {
             let rule = steps(&panorama(problem).unwrap().0);
             let (most, _) = exact(problem, &[Objective::Most(1)], 1_000).unwrap();

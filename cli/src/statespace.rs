@@ -13,14 +13,14 @@ use cotama_core::net::TransitionId;
 use cotama_verification::check::Model;
 use cotama_verification::coverability::{self, Bounded};
 use cotama_verification::explicit;
-use cotama_verification::limits::Limit;
+use cotama_verification::limits::{Limit, Limits};
 use cotama_verification::pt::Pt;
 use cotama_verification::tpn::{self, TimeNet};
 use std::time::Instant;
 
 /// Counts what is reachable.
 pub(crate) fn statespace(args: &StatespaceArgs, screen: &Screen) -> Result<Exit, Failure> {
-    let subject = Subject::load(&args.model, args.untimed, args.semantics)?;
+    let mut subject = Subject::load(&args.model, args.untimed, args.semantics)?;
     let (budget, progress, begun) = (Budget::start(args.budget), Progress::new(), Instant::now());
     let found = match &subject.model {
         Model::Plain(pt) => markings(pt, &budget, &progress),
@@ -30,6 +30,7 @@ pub(crate) fn statespace(args: &StatespaceArgs, screen: &Screen) -> Result<Exit,
     let rounds =
         subject.rounds.as_ref().and_then(|rounds| Some(rounds.size(&graph(subject.model.pt())?)));
     progress.clear();
+    subject.notes.extend(without_priorities(subject.model.pt(), &budget));
     let answer = StatespaceAnswer {
         semantics: subject.semantics,
         rounds: rounds
@@ -46,9 +47,21 @@ pub(crate) fn statespace(args: &StatespaceArgs, screen: &Screen) -> Result<Exit,
     } else {
         screen.print(&render::statespace::screen(&answer, screen.width()))?;
     }
-    // That a net is unbounded is an answer.
+    // Unboundedness of a net is an answer.
     let is_known = answer.limit.is_none() || answer.bounded == Some(false);
     Ok(if is_known { Exit::Success } else { Exit::Unknown })
+}
+
+/// How large the net is for who does not know its priorities, if that is soon counted.
+fn without_priorities(pt: &Pt, budget: &Budget) -> Option<String> {
+    const FEW: u64 = 100_000;
+    let limits = Limits { states: budget.limits.states.min(FEW), ..budget.limits };
+    let space = explicit::statespace(&pt.without_priorities()?, &limits, budget.jobs, &|_| ());
+    let many = match space.limit {
+        None => format!("{} states and {} arcs", space.states, space.arcs),
+        Some(_) => format!("{} states or more", space.states),
+    };
+    Some(format!("its priorities are kept; without them there are {many}"))
 }
 
 fn names(pt: &Pt, transitions: &[TransitionId]) -> Vec<String> {

@@ -1,4 +1,4 @@
-//! What is checked: a net with or without time, from the command line.
+//! The subject of a check: a net with or without time, from the command line.
 
 use crate::args::Semantics;
 use crate::exit::Failure;
@@ -6,24 +6,28 @@ use crate::model::{self, Found};
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::system::System;
 use cotama_models::cotama::Watch;
+use cotama_models::team::protocol::Requirement;
 use cotama_verification::check::Model;
 use cotama_verification::flat::{self, FlatError, Looks, Rounds, flat};
 use cotama_verification::property::Ids;
+use cotama_verification::pt::Pt;
 
 /// A model as it is checked.
 #[derive(Debug)]
 pub(crate) struct Subject {
-    /// What the command line calls it.
+    /// Name on the command line.
     pub(crate) name: String,
     pub(crate) model: Model,
     /// The net with its laws, unless it is from a file that has none.
     pub(crate) net: Option<OwnedNet>,
-    /// What to know about the model as it is checked.
+    /// Notes on the model as it is checked.
     pub(crate) notes: Vec<String>,
-    /// What it means that its nets work together; of a system.
+    /// Meaning of a system of nets; of a system alone.
     pub(crate) semantics: Option<Semantics>,
     /// A system that acts in rounds.
     pub(crate) rounds: Option<Rounds>,
+    /// Requirements of the protocol of a team.
+    pub(crate) requirements: Vec<Requirement>,
     place_ids: Vec<String>,
     transition_ids: Vec<String>,
 }
@@ -50,14 +54,27 @@ impl Subject {
         let loaded = match model::find(name)? {
             Found::System(system) => return Self::of_system(name, system, semantics),
             Found::Time(net) => {
-                let model = if untimed { Model::Plain(net.untimed()) } else { Model::from(net) };
+                let plain = untimed || model::is_untimed(&net);
+                let model = if plain { Model::Plain(net.untimed()) } else { Model::from(net) };
                 return Ok(Self::new(name, model, None));
             }
-            Found::Net(loaded) => loaded,
+            Found::Net(loaded) => *loaded,
         };
+        let is_random = loaded.random.is_some();
+        if let Some(random) = loaded.random.filter(|_| !untimed) {
+            return Err(random.into());
+        }
+        let extras = loaded.extras;
         let view = loaded.net.view();
         let timed = view.net().transitions.iter().any(|it| it.within.is_some());
-        let model = if untimed {
+        let model = if !extras.is_empty() {
+            if timed && !untimed {
+                let message = format!("its intervals of time and its {}", extras.named());
+                return Err(Failure::of(name, format!("{message} are not checked together"))
+                    .help("--untimed leaves the intervals out"));
+            }
+            Model::Plain(Pt::extended(&view.net(), &extras))
+        } else if untimed {
             Model::from(&view.net())
         } else {
             Model::timed(&view.net()).map_err(|defect| {
@@ -65,10 +82,22 @@ impl Subject {
                     .help("--untimed leaves them out")
             })?
         };
+        // A drawing of the net alone would lack what it cannot hold.
+        let net = extras.is_empty().then_some(loaded.net);
         let subject = Self {
             place_ids: loaded.place_ids,
             transition_ids: loaded.transition_ids,
-            ..Self::new(name, model, Some(loaded.net))
+            notes: loaded.notes,
+            requirements: loaded.requirements,
+            ..Self::new(name, model, net)
+        };
+        let subject = if is_random {
+            let rest = if extras.is_empty() { "" } else { ", immediate ones before the others" };
+            subject.noted(&format!(
+                "random delays are left out: enabled transitions fire in any order{rest}"
+            ))
+        } else {
+            subject
         };
         Ok(if timed && untimed { subject.noted("intervals of time are left out") } else { subject })
     }
@@ -98,6 +127,7 @@ impl Subject {
             notes: Vec::new(),
             semantics: None,
             rounds: None,
+            requirements: Vec::new(),
             place_ids,
             transition_ids,
         }
@@ -120,7 +150,7 @@ impl Subject {
         Ok(Some(Self { semantics: self.semantics, rounds: Some(rounds), ..subject }))
     }
 
-    /// What its file called places and transitions.
+    /// Returns the ids of places and transitions in its file.
     pub(crate) fn ids(&self) -> Ids<'_> {
         Ids { places: &self.place_ids, transitions: &self.transition_ids }
     }

@@ -4,12 +4,14 @@ use crate::answers::check::VerifyAnswer;
 use crate::args::VerifyArgs;
 use crate::check::questions;
 use crate::exit::{Exit, Failure};
+use crate::file_errors::FileErrors;
 use crate::input;
 use crate::kind::{self, Kind};
 use crate::output::Screen;
 use crate::render;
 use crate::subject::Subject;
 use cotama_verification::certificate::{Certificate, VerifyError, verify as verify_text};
+use cotama_verification::formats::json::{Wrong, in_words};
 
 /// Checks a certificate again.
 pub(crate) fn verify(args: &VerifyArgs, screen: &Screen) -> Result<Exit, Failure> {
@@ -45,12 +47,17 @@ pub(crate) fn verify(args: &VerifyArgs, screen: &Screen) -> Result<Exit, Failure
             evidence: Some(shown.evidence),
             ..nothing
         },
-        // What is no certificate at all is not refused, it is bad input.
+        // A text that is no certificate at all is not refused, it is bad input.
         Err(VerifyError { at, message }) if at == "certificate" || at == "schema" => {
+            const HELP: &str =
+                "`cotama check MODEL --property TEXT --certificate FILE` writes certificates";
             let name = input::name(&args.certificate);
-            return Err(Failure::of(name, format!("{at}: {message}")).help(
-                "`cotama check MODEL --property TEXT --certificate FILE` writes certificates",
-            ));
+            return Err(match in_words(&message, &text) {
+                Some(Wrong { line, column, message, .. }) => {
+                    FileErrors::at(name, text, line, column, message).help(HELP).into()
+                }
+                None => Failure::of(name, format!("{at}: {message}")).help(HELP),
+            });
         }
         Err(VerifyError { at, message }) => {
             VerifyAnswer { at: Some(at), message: Some(message), ..nothing }

@@ -1,7 +1,7 @@
 //! Command lines for the hints: what was typed, with something changed.
 
 use crate::answers::{Outcome, PlanAnswer, Reason, Relaxation, RunBody, Status};
-use crate::args::{Lost, PlanArgs, Planning, ReplayArgs, RunArgs, STEPS};
+use crate::args::{Lost, Objective, PlanArgs, Planning, ReplayArgs, RunArgs, STEPS};
 use crate::names::quoted;
 use clap::ValueEnum;
 
@@ -109,7 +109,7 @@ impl Words {
         self.with("--steps", steps.saturating_mul(20).to_string())
     }
 
-    /// What to do after a plan.
+    /// Returns the next step after a plan.
     pub(crate) fn after_plan(
         self,
         answer: &PlanAnswer,
@@ -136,31 +136,51 @@ impl Words {
             _ => self.line("run"),
         }
     }
-
-    /// What to do after a run, of which no trace was written. `objective` is what its plans were
-    /// chosen for.
-    pub(crate) fn after_run(self, body: &RunBody, objective: &str) -> Option<String> {
-        if body.outcome == Outcome::Completed {
-            let line = self.line("run")?;
-            return Some(format!("{line} --trace run.jsonl && cotama replay run.jsonl"));
-        }
-        if let Some(raised) = self.clone().raised(body.infeasible.as_ref()) {
-            return raised.line("run");
-        }
-        if body.infeasible.is_none() && body.supervised.is_none() && objective != "min-energy" {
-            // With less used from the start, more is left when something goes wrong.
-            return self.without("--allocator").with("--objective", "min-energy").line("run");
-        }
-        let faults = self.options.iter().find(|it| it.0 == "--faults");
-        let is_quiet = faults.is_some_and(|it| it.1.as_deref() == Some("none"));
-        if is_quiet || body.infeasible.is_some() {
-            return None;
-        }
-        self.with("--faults", "none").line("run")
-    }
 }
 
-/// What to do after a run was made again.
+/// Returns what to do after a run, of which no trace was written: one that `helps`, which is
+/// tried: it is completed, or comes further where this one never left. `objective` is what its
+/// plans were chosen for.
+pub(crate) fn after_run(
+    args: &RunArgs,
+    body: &RunBody,
+    objective: &str,
+    helps: impl Fn(&RunArgs) -> bool,
+) -> Option<String> {
+    if body.outcome == Outcome::Completed {
+        let line = Words::of_run(args).line("run")?;
+        return Some(format!("{line} --trace run.jsonl && cotama replay run.jsonl"));
+    }
+    if args.mission.mission == "-" {
+        return None;
+    }
+    let changed = |change: &dyn Fn(&mut RunArgs)| {
+        let mut args = args.clone();
+        change(&mut args);
+        args
+    };
+    let mut tries = Vec::new();
+    let relaxations = body.infeasible.as_ref().map_or(&[][..], |it| &it.relaxations);
+    if let Some((duration, energy)) = relaxations.iter().find_map(Relaxation::raised) {
+        tries.push(changed(&|it| {
+            it.planning.duration_limit = duration.or(it.planning.duration_limit);
+            it.planning.energy_limit = energy.or(it.planning.energy_limit);
+        }));
+    } else if body.infeasible.is_none() && body.supervised.is_none() && objective != "min-energy" {
+        // With less used from the start, more is left when something goes wrong.
+        tries.push(changed(&|it| {
+            it.planning.allocator = None;
+            it.objective = Some(Objective::MinEnergy);
+        }));
+    }
+    if args.faults != "none" && body.infeasible.is_none() {
+        tries.push(changed(&|it| "none".clone_into(&mut it.faults)));
+    }
+    let found = tries.into_iter().find(helps)?;
+    Words::of_run(&found).line("run")
+}
+
+/// Returns the next step after a run was made again.
 pub(crate) fn after_replay(args: &ReplayArgs) -> Option<String> {
     if args.report.is_some() || args.file == "-" {
         return None;
@@ -180,7 +200,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_changed_stands_beside_what_was_typed() {
+    fn a_changed_option_stands_beside_the_typed_ones() {
         let words =
             Words { mission: "m".to_owned(), options: vec![("--seed", Some("1".to_owned()))] };
         let line = words.with("--steps", "9").with("--seed", "2").line("run");

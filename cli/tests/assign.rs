@@ -68,7 +68,7 @@ impl Roles<'_> {
     }
 }
 
-/// What the assignment costs, added again.
+/// Adds up the cost of the assignment again.
 fn added(instance: &Value, answer: &Value) -> u64 {
     let parts = instance["cost_denominator"].as_u64().unwrap();
     let mut taken = vec![false; list(&instance["robots"]).len()];
@@ -189,7 +189,7 @@ fn all_instances_have_the_proven_answer() {
 }
 
 #[test]
-fn the_screens_say_who_does_what_and_why_no_less() {
+fn the_screens_show_assignment_and_bound() {
     let folder = Folder::new("assign_screens");
     let mut screens = String::new();
     for file in files("") {
@@ -232,7 +232,7 @@ fn files_of_other_kinds_lead_to_their_command() {
 }
 
 #[test]
-fn few_steps_leave_a_bound_and_say_what_to_do() {
+fn few_steps_leave_a_bound_and_a_remedy() {
     let folder = Folder::new("assign_steps");
     let mixed = &files("")[11];
     let answer = assign(&folder, mixed, &["--json", "--steps", "500"]).json(3);

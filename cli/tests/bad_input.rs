@@ -191,6 +191,13 @@ fn models_that_cannot_be_read() {
                  <type value=\"inhibitor\"/></arc>"
             )),
         ),
+        (
+            "kind",
+            pnml(&format!(
+                "   {PLACE}<transition id=\"t\"/>\n   <arc id=\"a\" source=\"p\" target=\"t\">\
+                 <type value=\"flush\"/></arc>"
+            )),
+        ),
         ("tokens", pnml(&PLACE.replace(">1<", ">many<"))),
         ("far", pnml(&format!("   {PLACE}\n{}\n   {PLACE}", " \n".repeat(20_000)))),
         ("one_line", format!("{}<net id=\"x\">", pnml(PLACE).replace('\n', &" ".repeat(9_000)))),

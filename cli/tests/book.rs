@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What is not run here, as it needs a clone or takes long; `.ci/run` does.
+/// Commands that are not run here, as they need a clone or take long; `.ci/run` runs them.
 const ELSEWHERE: [&str; 10] = [
     "cargo run --release -- run patrol",
     "cargo test --workspace",
@@ -21,9 +21,9 @@ const ELSEWHERE: [&str; 10] = [
     "cargo test",
     "cargo run --example model > watch.json",
     "firmware/check.sh",
-    "tests/no_panic/check.sh",
-    "tests/no_std/check.sh",
-    "tests/proofs/check.sh",
+    "tests/evidence/no_panic/check.sh",
+    "tests/evidence/no_std/check.sh",
+    "tests/evidence/proofs/check.sh",
 ];
 
 /// Crates are built without a network, all in one folder, as quickly as can be.
@@ -56,7 +56,7 @@ fn reads(line: &str, shown: &str) -> bool {
         let Some(at) = rest.find(part) else { return false };
         (rest, last) = (&rest[at + part.len()..], Some(part));
     }
-    // What ends with `…` ends in any way.
+    // A line that ends with `…` may go on in any way.
     rest.is_empty() || last == Some("") || last.is_some_and(|it| line.ends_with(it))
 }
 
@@ -132,7 +132,7 @@ fn follow_page(path: &Path, folder: &Folder) -> usize {
 }
 
 #[test]
-fn every_page_says_what_the_program_does() {
+fn every_page_agrees_with_the_program() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let folder = |path: &Path| {
         let page = path.file_name().unwrap().to_str().unwrap();
@@ -151,25 +151,106 @@ fn every_page_says_what_the_program_does() {
 /// project.
 #[test]
 #[ignore = "a minute: CI runs it"]
-fn the_page_that_builds_crates_says_what_happens() {
+fn the_page_that_builds_crates_agrees_with_the_builds() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let folder = Folder::new("book_crates");
     std::os::unix::fs::symlink(&root, folder.path().join("cotama")).unwrap();
     assert_eq!(follow_page(&root.join("docs").join(BUILDS_CRATES), &folder), 11);
 }
 
+/// Every link of a text: where it leads.
+fn links(text: &str) -> impl Iterator<Item = &str> {
+    text.match_indices("](").filter_map(|(at, _)| text[at + 2..].split(')').next())
+}
+
+/// The link leads to a file beside `path`, if to a heading then to one that is there.
+fn leads_somewhere(path: &Path, link: &str) -> Result<Option<PathBuf>, String> {
+    if link.starts_with("http") {
+        return Ok(None);
+    }
+    if link.contains("::") {
+        return Err(format!("{}: only rustdoc reads {link}", path.display()));
+    }
+    let (target, heading) = link.split_once('#').map_or((link, None), |(a, b)| (a, Some(b)));
+    let target = match target {
+        "" => path.to_owned(),
+        _ => path.parent().unwrap().join(target),
+    };
+    let (true, Some(heading)) = (target.exists(), heading) else {
+        return if target.exists() {
+            Ok(Some(target))
+        } else {
+            Err(format!("{}: {link} is not there", path.display()))
+        };
+    };
+    let text = fs::read_to_string(&target).unwrap();
+    let mut headings = text.lines().filter(|it| it.starts_with('#')).map(|it| {
+        let words = it.trim_start_matches('#').trim().to_lowercase();
+        let kept = words.chars().filter(|it| it.is_alphanumeric() || " -_".contains(*it));
+        kept.collect::<String>().replace(' ', "-")
+    });
+    if headings.any(|it| it == heading) {
+        Ok(Some(target))
+    } else {
+        Err(format!("{}: {link} is no heading", path.display()))
+    }
+}
+
+/// Pages, and the texts in the sources to which they lead.
 #[test]
 fn every_link_of_a_page_leads_somewhere() {
-    for path in pages() {
+    let (mut wrong, mut pages) = (Vec::new(), pages());
+    let mut at = 0;
+    while let Some(path) = pages.get(at).cloned() {
+        at += 1;
         let text = fs::read_to_string(&path).unwrap();
-        for (_, target) in text.match_indices("](").map(|(at, _)| (at, &text[at + 2..])) {
-            let target = target.split([')', '#']).next().unwrap();
-            if target.is_empty() || target.starts_with("http") {
-                continue;
+        for link in links(&text) {
+            match leads_somewhere(&path, link) {
+                Ok(Some(target)) if target.extension().is_some_and(|it| it == "md") => {
+                    let target = target.canonicalize().unwrap();
+                    if !pages.iter().any(|it| it.canonicalize().unwrap() == target) {
+                        pages.push(target);
+                    }
+                }
+                Ok(_) => {}
+                Err(error) => wrong.push(error),
             }
-            assert!(path.parent().unwrap().join(target).exists(), "{}: {target}", path.display());
         }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Writes a text of the sources with headings two levels deeper, as a page shows it.
+fn as_part(text: &str) -> String {
+    let mut code = false;
+    let mut deeper = |line: &str| {
+        code ^= line.starts_with("```");
+        let heading = !code && line.starts_with('#');
+        format!("{}{line}\n", if heading { "##" } else { "" })
+    };
+    text.trim_end().lines().map(&mut deeper).collect()
+}
+
+/// Between `<!-- FILE -->` and `<!-- end -->` stands the text of a file.
+#[test]
+fn the_page_of_the_languages_holds_the_documentation_of_the_macros() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let path = root.join("docs/language.md");
+    let page = fs::read_to_string(&path).unwrap();
+    let (mut written, mut rest, mut parts) = (String::new(), &page[..], Vec::new());
+    while let Some((before, behind)) = rest.split_once("<!-- core/") {
+        let (name, behind) = behind.split_once(" -->").unwrap();
+        let (_, behind) = behind.split_once("<!-- end -->").unwrap();
+        let text = fs::read_to_string(root.join("core").join(name)).unwrap();
+        let text = as_part(&text);
+        let _ = write!(written, "{before}<!-- core/{name} -->\n\n{text}\n<!-- end -->");
+        parts.push(name);
+        rest = behind;
+    }
+    written.push_str(rest);
+    let all = ["net/sections", "net/laws", "system/sections", "system/laws/law", "system/extends"];
+    assert_eq!(parts, all.map(|it| format!("src/{it}.md")));
+    cotama_golden::compare(&path, &written);
 }
 
 #[test]

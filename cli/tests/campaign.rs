@@ -7,7 +7,7 @@ use std::fmt::Write;
 const RUNS: &str = "2500";
 
 /// Runs a campaign of the patrol; its answer.
-fn patrol(folder: &Folder, more: &[&str]) -> serde_json::Value {
+pub(crate) fn patrol(folder: &Folder, more: &[&str]) -> serde_json::Value {
     let words = [&["campaign", "patrol", "--runs", RUNS, "--json", "--shrink", "3"], more].concat();
     let answer = folder.cotama(&words);
     assert!(matches!(answer.code, Some(0 | 1)), "{}", answer.stdout);
@@ -59,7 +59,7 @@ fn a_failure_is_a_file_that_replays() {
 }
 
 #[test]
-fn what_does_not_fit_is_refused_and_nothing_is_changed() {
+fn results_that_do_not_fit_are_refused_and_nothing_is_changed() {
     let folder = Folder::new("campaign_refused");
     let shard = |seed: &str, which: &str, out: &str| {
         let (seed, which) = (seed.to_owned(), which.to_owned());
@@ -100,4 +100,128 @@ fn what_does_not_fit_is_refused_and_nothing_is_changed() {
     }
     cotama_golden::compare("tests/golden/bad_campaigns.txt", &said);
     assert!(folder.read("a/runs.jsonl") == before);
+}
+
+/// The lines of shards that another program wrote again are the same records.
+#[test]
+fn shards_are_merged_by_their_records() {
+    let folder = Folder::new("campaign_written");
+    for shard in ["1", "2"] {
+        let (which, out) = (format!("{shard}/2"), format!("part{shard}"));
+        patrol(&folder, &["--shard", &which, "--out", &out]);
+    }
+    let merge = |out: &str| {
+        let words =
+            ["campaign", "merge", "part1", "part2", "--out", out, "--json", "--shrink", "0"];
+        let ended = folder.cotama(&words);
+        assert_eq!(ended.code, Some(1), "{}", ended.stderr);
+        let answer: serde_json::Value = serde_json::from_str(&ended.stdout).unwrap();
+        (answer["digest"].clone(), folder.read(&format!("{out}/runs.jsonl")))
+    };
+    let one = merge("whole");
+    let text = folder.read("part2/runs.jsonl");
+    let sorted = |line: &str| {
+        let value: serde_json::Value = serde_json::from_str(line).unwrap();
+        let pretty = serde_json::to_string_pretty(&value).unwrap();
+        pretty.lines().map(str::trim_start).collect::<Vec<_>>().join(" ")
+    };
+    let lines =
+        |each: &dyn Fn(&str) -> String| text.lines().map(|it| each(it) + "\n").collect::<String>();
+    for (number, other) in [
+        text.replace('\n', "\r\n"),
+        lines(&sorted),
+        lines(&|it| it.replace(",\"x_mm\"", ".0,\"x_mm\"")),
+        text.trim_end().to_owned(),
+        text.clone() + "\n\n",
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        assert_ne!(other, text);
+        folder.write("part2/runs.jsonl", other);
+        assert!(merge(&format!("whole{number}")) == one, "{number}");
+    }
+}
+
+/// A campaign is asked for its planner as a run, and makes the same plans.
+#[test]
+fn a_campaign_plans_as_a_run_does() {
+    let folder = Folder::new("campaign_planner");
+    assert_eq!(folder.cotama(&["new", "mission", "own"]).code, Some(0));
+    folder.write("none.toml", "format = \"panorama-faults/1\"\n");
+    for mission in ["own.toml", "patrol", "delivery"] {
+        for planner in [
+            &[][..],
+            &["--objective", "quality"],
+            &["--objective", "min-energy"],
+            &["--objective", "paper"],
+            &["--objective", "paper", "--allocator", "exact"],
+            &["--allocator", "panorama"],
+        ] {
+            let run =
+                [&["run", mission, "--faults", "none.toml", "--no-report", "--json"], planner]
+                    .concat();
+            let run = folder.cotama(&run);
+            let Ok(run) = serde_json::from_str::<serde_json::Value>(&run.stdout) else {
+                panic!("{run:?}")
+            };
+            let plan = folder.cotama(&[&["plan", mission, "--json"], planner].concat());
+            let plan: serde_json::Value = serde_json::from_str(&plan.stdout).unwrap();
+            if plan["status"] == "infeasible" {
+                continue;
+            }
+            let rows = |plan: &serde_json::Value| {
+                let rows = plan.as_array().unwrap().iter().map(|it| it["choice"].clone());
+                rows.collect::<Vec<_>>()
+            };
+            assert_eq!(
+                rows(&run["plans"][0]["plan"]),
+                rows(&plan["plan"]),
+                "{mission} {planner:?}"
+            );
+            // A run of a campaign in which nothing that is drawn is met ends as that run.
+            let words = [
+                &[
+                    "campaign",
+                    mission,
+                    "--runs",
+                    "40",
+                    "--json",
+                    "--shrink",
+                    "1",
+                    "--require",
+                    "time<=1",
+                ],
+                planner,
+            ];
+            let campaign = folder.cotama(&words.concat());
+            assert_eq!(campaign.code, Some(1), "{}", campaign.stderr);
+            let campaign: serde_json::Value = serde_json::from_str(&campaign.stdout).unwrap();
+            let scenario = campaign["failures"][0]["scenario"].as_str().unwrap();
+            folder.write("found.toml", scenario);
+            let again = folder.cotama(&["replay", "found.toml", "--json"]);
+            assert_eq!(again.code, Some(0), "{}", again.stdout);
+            let again: serde_json::Value = serde_json::from_str(&again.stdout).unwrap();
+            assert_eq!(
+                (&again["duration_ms"], &again["energy_mj"]),
+                (&run["duration_ms"], &run["energy_mj"])
+            );
+            assert_eq!(campaign["planner"], again["planner"]);
+        }
+    }
+    let both =
+        folder.cotama(&["campaign", "patrol", "--policy", "exact", "--objective", "quality"]);
+    assert_eq!(both.code, Some(2));
+    assert!(both.stderr.contains("--policy exact says who plans"), "{}", both.stderr);
+}
+
+/// Runs a command in a folder; what it answers in JSON, and its exit code.
+pub(crate) fn answered(folder: &Folder, line: &str) -> (Option<i32>, serde_json::Value) {
+    let words: Vec<_> = line.split('|').map(str::trim).collect();
+    let ended = folder.cotama(&[&["campaign"], &words[..], &["--json"]].concat());
+    let answer = serde_json::from_str(&ended.stdout).unwrap_or(serde_json::Value::Null);
+    if matches!(ended.code, Some(0 | 1 | 3)) {
+        validate("campaign", &answer);
+    }
+    (ended.code, answer)
 }

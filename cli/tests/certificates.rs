@@ -78,3 +78,59 @@ fn of_several_properties_each_has_a_file_of_its_own() {
     let run: serde_json::Value = serde_json::from_str(&folder.read("run.json")).unwrap();
     assert_eq!((&run["holds"], &run["deadlock"]), (&json!(false), &json!(true)));
 }
+
+/// In a deadlock no marking follows, and the next marking of a run is the one that lasts: two
+/// questions, each of which has one text everywhere.
+#[test]
+fn the_next_marking_is_one_question_on_the_command_line_in_files_and_in_certificates() {
+    let folder = Folder::new("certificates_next");
+    folder.write("dead.net", "net dead\npl p (1)\ntr t q -> p\n");
+    folder.write("last.net", "net last\npl q (1)\ntr t q -> p\n");
+    let verdict = |net: &str, text: &str| {
+        let answer =
+            folder.shell(&format!("cotama check {net} --initial --property '{text}' --json"));
+        let answer: serde_json::Value = serde_json::from_str(&answer.stdout).unwrap();
+        answer["results"][0]["verdict"].as_str().unwrap().to_owned()
+    };
+    for (text, dead, last) in [
+        ("EX true", "false", "true"),
+        ("E(X(true))", "false", "true"),
+        ("E (X true)", "false", "true"),
+        ("E[X true]", "false", "true"),
+        ("AX false", "true", "false"),
+        ("A(X(false))", "true", "false"),
+        ("!(A(!(X(true))))", "true", "true"),
+        ("!(E(!(X(false))))", "false", "false"),
+        ("E(X(p))", "false", "true"),
+        ("!(A(!(X(p))))", "true", "true"),
+    ] {
+        assert_eq!(verdict("dead.net", text), dead, "{text} of a deadlock");
+        assert_eq!(verdict("last.net", text), last, "{text} before a deadlock");
+        for net in ["dead.net", "last.net"] {
+            let asked = format!("check {net} --initial --property '{text}' --certificate it.json");
+            let code = folder.shell(&format!("cotama {asked}")).code;
+            assert!(matches!(code, Some(0 | 1)), "{text}");
+            let line = format!("cotama verify it.json --model {net} --property '{text}'");
+            let ended = folder.shell(&line);
+            assert_eq!(ended.code, Some(0), "{text}: {ended:?}");
+            // The text of the question in the certificate is the same question.
+            let shown = folder.cotama(&["verify", "it.json", "--json"]).json(0);
+            let question = shown["question"].as_str().unwrap();
+            let again = verdict(net, question);
+            assert_eq!(again, shown["verdict"].as_bool().unwrap().to_string(), "{question}");
+        }
+    }
+    // A certificate of one is none of the other.
+    folder.cotama(&["check", "dead.net", "--property", "E(X(p))", "--certificate", "it.json"]);
+    for (text, code) in [("EX p", 0), ("E(X(p))", 0), ("!(A(!(X(p))))", 1)] {
+        let about = ["verify", "it.json", "--model", "dead.net", "--property", text];
+        assert_eq!(folder.cotama(&about).code, Some(code), "{text}");
+    }
+    folder.write(
+        "next.xml",
+        "<property-set><property><id>next one</id><formula><exists-path><next><true/></next>\
+         </exists-path></formula></property></property-set>",
+    );
+    let line = folder.cotama(&["check", "dead.net", "--properties", "next.xml", "--mcc"]);
+    assert!(line.stdout.starts_with("FORMULA next\\u{20}one FALSE "), "{line:?}");
+}

@@ -48,7 +48,7 @@ fn the_worst_verdict_decides_how_it_ends() {
 }
 
 #[test]
-fn what_is_not_known_says_why_and_how_far_it_came() {
+fn an_unknown_verdict_has_a_reason_and_figures() {
     let folder = Folder::new("check_unknown");
     let more = ["--engine", "explicit", "--max-states", "100", "--json"];
     let answer = check(&folder, "kanban:3", &["EF (P1 = 0 & P4 = 0 & Pout4 = 3)"], &more).json(3);
@@ -158,7 +158,7 @@ fn a_file_without_laws_is_asked_the_usual_questions() {
 }
 
 #[test]
-fn a_run_leads_to_where_what_should_stay_possible_is_lost() {
+fn a_run_leads_to_a_marking_that_loses_a_lasting_possibility() {
     let folder = Folder::new("check_lost");
     folder.write(
         "fuse.net",
@@ -175,7 +175,7 @@ fn a_run_leads_to_where_what_should_stay_possible_is_lost() {
 }
 
 #[test]
-fn what_never_fires_and_is_never_marked_is_named() {
+fn transitions_that_never_fire_and_places_never_marked_are_named() {
     let folder = Folder::new("check_unused");
     folder.write("alarm.net", ALARM);
     golden("check_unused.txt", &folder.cotama(&["check", "alarm.net"]).stdout);
@@ -198,7 +198,7 @@ fn what_never_fires_and_is_never_marked_is_named() {
 }
 
 #[test]
-fn at_a_limit_what_the_structure_shows_is_named() {
+fn results_of_the_structure_are_named_at_a_limit() {
     let folder = Folder::new("check_unused_limit");
     folder.write("alarm.net", ALARM);
     let more = ["--untimed", "--max-states", "1", "--json"];
@@ -223,7 +223,7 @@ fn a_system_can_be_checked_in_every_interleaving() {
     assert!(answer["notes"][0].as_str().unwrap().contains("every interleaving"), "{answer}");
 }
 
-/// That all hold is tested beside the checker.
+/// Their truth is tested beside the checker.
 #[test]
 fn the_requirements_of_a_system_are_asked_by_their_numbers() {
     let folder = Folder::new("check_requirements_few");
@@ -311,7 +311,7 @@ fn the_contest_is_told_when_nothing_is_known() {
 }
 
 #[test]
-fn what_a_property_gets_wrong_is_shown_at_its_place() {
+fn an_error_in_a_property_is_shown_at_its_place() {
     let folder = Folder::new("check_wrong");
     let said = |properties: &[&str]| {
         let ended = check(&folder, "door", properties, &[]);
@@ -371,7 +371,8 @@ fn build_servers_and_editors_read_the_verdicts() {
         None => it.to_owned(),
     });
     golden("check_junit.xml", &(without_times.collect::<Vec<_>>().join("\n") + "\n"));
-    golden("check_sarif.json", &folder.read("a.sarif"));
+    let sarif = serde_json::from_str(&folder.read("a.sarif")).unwrap();
+    golden("check_sarif.json", &cotama_golden::json_lines(&sarif));
 }
 
 #[test]

@@ -122,7 +122,7 @@ fn the_trace_of_a_supervised_mission_is_a_run_of_its_supervisors() {
 }
 
 #[test]
-fn what_is_simulated_is_a_run() {
+fn a_simulated_game_is_a_run() {
     let folder = Folder::new("conform_simulated");
     let runs: [&[&str]; 7] = [
         &["door", "Call", "EndOpen@2000", "+5000", "EndClosed", "Call"],
@@ -146,8 +146,39 @@ fn what_is_simulated_is_a_run() {
     assert_eq!(both.code, Some(2), "{both:?}");
 }
 
+/// Both have one limit of time.
 #[test]
-fn the_first_line_that_departs_is_named_with_its_reason_and_what_was_allowed() {
+fn a_game_at_any_time_is_read_again_or_refused_before_it_is_written() {
+    let folder = Folder::new("conform_times");
+    let last = (1_u64 << 53) - 1;
+    for (steps, code) in [
+        (format!("Call EndOpen@{last}"), 0),
+        (format!("Call EndOpen@{}", last - 1), 0),
+        (format!("Call +{last}"), 0),
+        (format!("Call EndOpen@{} +5000", last - 5_000), 0),
+        (format!("Call@{last} EndOpen"), 0),
+        (format!("Call EndOpen@{}", last + 1), 2),
+        (format!("Call +{}", last + 1), 2),
+        (format!("Call EndOpen@5 +{last}"), 2),
+        (format!("Call +{last} +1"), 2),
+        (format!("Call EndOpen@{}", u64::MAX), 2),
+        (format!("Call EndOpen@{}0", u64::MAX), 2),
+    ] {
+        let _ = std::fs::remove_file(folder.path().join("t.jsonl"));
+        let simulated = folder.shell(&format!("cotama simulate door {steps} --trace t.jsonl"));
+        assert_eq!(simulated.code, Some(code), "{steps}: {}", simulated.stderr);
+        if code == 0 {
+            assert_eq!(folder.shell("cotama conform door t.jsonl").code, Some(0), "{steps}");
+        } else {
+            let said = simulated.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(said.contains(&format!("at most {last}")), "{said}");
+            assert_eq!(folder.files(""), [""; 0], "{steps}");
+        }
+    }
+}
+
+#[test]
+fn the_first_line_that_departs_is_named_with_its_reason_and_the_allowed_ones() {
     let folder = Folder::new("conform_departs");
     let edited = |name: &str, edit: &dyn Fn(&mut Vec<Value>)| {
         let mut run = door();
@@ -237,7 +268,7 @@ fn recordings_that_are_none() {
     refused("nothing_said", "door", &format!("{call}{{\"t_ms\":0,\"evnt\":\"Call\"}}\n"));
     refused("no_time", "door", "{\"event\":\"Call\"}\n");
     refused("empty", "door", "");
-    refused("back", "door", "{\"t_ms\":9,\"event\":\"Call\"}\n{\"t_ms\":8,\"fired\":\"call\"}\n");
+    refused("back", "door", "{\"t_ms\":9,\"event\":\"Call\"}\n{\"t_ms\":8,\"event\":\"Call\"}\n");
     refused("after_end", "door", &format!("{{\"t_ms\":0,\"end\":true}}\n{call}"));
     refused("schema", "door", "{\"schema\":\"cotama-recording/2\"}\n");
     let silent = "{\"schema\":\"cotama-recording/1\",\"silent\":[\"cx\"]}\n";

@@ -131,7 +131,7 @@ fn an_unlike_name_suggests_nothing() {
 }
 
 #[test]
-fn what_has_no_place_is_refused_before_the_work() {
+fn a_file_without_a_folder_is_refused_before_the_work() {
     let folder = Folder::new("errors_place_to_write");
     folder.write("file", "kept");
     let mut said = String::new();

@@ -52,7 +52,7 @@ fn the_answer_is_the_same_on_any_number_of_threads() {
 }
 
 #[test]
-fn what_runs_cannot_say_is_refused() {
+fn questions_beyond_single_runs_are_refused() {
     let folder = Folder::new("estimate_refused");
     for (line, message) in [
         ("watchdog --property EF~Fault", "--untimed leaves the intervals out"),

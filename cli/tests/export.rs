@@ -91,6 +91,42 @@ fn an_interval_that_a_chart_does_not_keep_is_noted() {
     golden("export_unkept.txt", &ended.stderr);
 }
 
+/// A chart of transitions without events would run for ever at its start.
+#[test]
+fn a_chart_of_a_net_without_events_and_time_waits_for_its_transitions() {
+    let folder = Folder::new("export_waits");
+    let step = |at| format!("tr t{at} s{at} -> s{}\n", (at + 1) % 20);
+    let ring = (0..20).map(step).collect::<Vec<_>>().concat();
+    let mut names: Vec<_> = (0..20).map(|at| format!("t{at}")).collect();
+    names.sort();
+    let cycle = "tr go idle -> busy\ntr stop busy -> idle\npl idle (1)\n";
+    for (net, events) in [
+        (cycle.to_owned(), "go stop".to_owned()),
+        (cycle.replace(" idle ->", " [0,w[ idle ->"), "go stop".to_owned()),
+        (format!("{cycle}tr crash busy -> broken\n"), "crash go stop".to_owned()),
+        ("tr spin a -> a\npl a (1)\n".to_owned(), "spin".to_owned()),
+        ("tr left a -> b\ntr right a -> c\npl a (1)\n".to_owned(), "left right".to_owned()),
+        (format!("{ring}pl s0 (1)\n"), names.join(" ")),
+    ] {
+        folder.write("it.net", &net);
+        assert_eq!(folder.shell("cotama export it.net -o it.pnml").code, Some(0));
+        for file in ["it.net", "it.pnml"] {
+            let ended = folder.cotama(&["export", file, "--format", "scxml"]);
+            assert_eq!(ended.code, Some(0), "{ended:?}");
+            let said = "note: the net has neither events nor time: each transition of the chart \
+                waits for an event of its name, as `cotama simulate` plays it\n";
+            assert_eq!(ended.stderr, said, "{net}");
+            let lines = ended.stdout.lines().filter(|it| it.contains("<transition "));
+            let mut found: Vec<_> = lines
+                .map(|it| it.split("event=\"").nth(1).and_then(|it| it.split('"').next()))
+                .map(Option::unwrap)
+                .collect();
+            found.sort_unstable();
+            assert_eq!(found.join(" "), events, "{net}");
+        }
+    }
+}
+
 #[test]
 fn a_file_is_written_as_a_whole_or_left_as_it_was() {
     let folder = Folder::new("export_whole");

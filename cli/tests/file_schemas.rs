@@ -9,7 +9,8 @@ use std::path::Path;
 
 /// The schema of a kind of file, as the program prints it.
 pub(crate) fn schema(kind: &str) -> Value {
-    let folder = Folder::new(&format!("file_schema_{kind}"));
+    // Tests that run beside each other have folders of their own.
+    let folder = Folder::new(&format!("file_schema_{kind}_{:?}", std::thread::current().id()));
     serde_json::from_str(&folder.cotama(&["schema", kind]).stdout).unwrap()
 }
 
@@ -140,7 +141,7 @@ const WRONG_FAULTS: [(&str, &str); 20] = [
 ];
 
 #[test]
-fn what_is_wrong_by_its_shape_is_refused_by_the_reader_and_by_the_schema() {
+fn a_file_of_wrong_shape_is_refused_by_the_reader_and_by_the_schema() {
     let folder = Folder::new("file_schemas_wrong");
     let (mission, faults) = (validator("mission"), validator("faults"));
     let mut taken = Vec::new();

@@ -150,7 +150,7 @@ fn no_line_of_help_is_wider_than_the_screen() {
 }
 
 #[test]
-fn help_offers_what_is_there_and_general_options_last() {
+fn help_offers_existing_names_and_general_options_last() {
     let folder = Folder::new("help_offers");
     for command in COMMANDS {
         let help = folder.cotama(&[command, "--help"]).stdout;

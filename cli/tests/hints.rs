@@ -53,7 +53,7 @@ fn hints_repeat_the_options_and_run() {
 }
 
 #[test]
-fn no_hint_asks_for_what_is_gone_or_cannot_be() {
+fn no_hint_asks_for_missing_input_or_an_impossible_command() {
     let folder = Folder::new("hints_none");
     folder.write("walk.toml", patrol(&[]));
     assert_eq!(next(&folder, "plan - < walk.toml"), None);

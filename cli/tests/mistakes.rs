@@ -1,5 +1,5 @@
-//! What users do wrong: each mistake is answered in a few lines that say what is wrong, where, and
-//! what to do; nothing is left half-written. All that the program says stands in one golden file.
+//! Mistakes of users: each is answered in a few lines with cause, place and remedy; nothing is left
+//! half-written. All words of the program stand in one golden file.
 //!
 //! Missions, nets, traces and instances that are broken inside are in `bad_input`, `broken_pnml`
 //! and `conform`; what is given to the command of another kind, in `errors`.
@@ -12,7 +12,7 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-/// What is done, and the line of a shell that does it.
+/// The mistakes, each with the line of a shell that makes it.
 const MISTAKES: [(&str, &str); 41] = [
     ("a picture in place of a net", "cotama check photo.png"),
     ("an archive in place of a mission", "cotama plan nets.zip"),
@@ -94,7 +94,7 @@ fn folder() -> Folder {
     folder
 }
 
-/// What the program says to a line: standard output, standard error, exit code.
+/// Returns the answer of the program to a line: standard output, standard error, exit code.
 fn said(folder: &Folder, line: &str) -> String {
     let ended = folder.shell(line);
     format!("$ {line}\n{}{}# exit code {}\n", ended.stdout, ended.stderr, ended.code.unwrap())
@@ -123,7 +123,7 @@ fn every_mistake_is_answered_in_a_few_lines() {
 /// do all that.
 #[cfg(unix)]
 #[test]
-fn what_is_not_permitted_is_said() {
+fn a_missing_permission_is_reported() {
     use std::os::unix::fs::PermissionsExt;
     let folder = Folder::new("mistakes_permissions");
     let permit = |name: &str, mode: u32| {
@@ -151,19 +151,20 @@ fn what_is_not_permitted_is_said() {
     permit("locked", 0o755);
 }
 
-/// Whether an interruption does not reach this process and those that it starts, as in the
+/// Whether a signal does not reach this process and those that it starts, as an interruption in the
 /// background of some shells.
-fn interruptions_are_ignored() -> bool {
+fn is_ignored(signal: i32) -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let ignored = status.lines().find_map(|it| it.strip_prefix("SigIgn:"));
-    ignored.is_some_and(|it| u64::from_str_radix(it.trim(), 16).is_ok_and(|it| it & 2 != 0))
+    let bit = 1 << (signal - 1);
+    ignored.is_some_and(|it| u64::from_str_radix(it.trim(), 16).is_ok_and(|it| it & bit != 0))
 }
 
 #[cfg(unix)]
 #[test]
-fn who_interrupts_a_long_check_finds_no_file() {
+fn an_interrupted_check_leaves_no_file() {
     use std::os::unix::process::ExitStatusExt;
-    if interruptions_are_ignored() {
+    if is_ignored(2) {
         cotama_golden::skipped("interruptions do not reach this process");
         return;
     }
@@ -208,31 +209,43 @@ fn who_interrupts_a_long_check_finds_no_file() {
 
 #[cfg(unix)]
 #[test]
-fn who_interrupts_a_check_in_json_reads_what_is_decided() {
+fn an_interrupted_check_in_json_prints_the_decided_properties() {
     use std::os::unix::process::ExitStatusExt;
-    if interruptions_are_ignored() {
-        cotama_golden::skipped("interruptions do not reach this process");
-        return;
+    let decided = ["true", "false", "true", "false"];
+    for (signal, number, count) in [
+        ("INT", 2, 2),
+        ("TERM", 15, 2),
+        ("HUP", 1, 2),
+        ("INT", 2, 1),
+        ("TERM", 15, 3),
+        ("HUP", 1, 4),
+    ] {
+        if is_ignored(number) {
+            cotama_golden::skipped("a signal does not reach this process");
+            continue;
+        }
+        let ended = interrupted_in_json(signal, count);
+        assert_eq!(ended.status.signal(), Some(number), "{ended:?}");
+        let answer: serde_json::Value = serde_json::from_slice(&ended.stdout).unwrap();
+        crate::schemas::validate("check", &answer);
+        let verdicts: Vec<_> =
+            answer["results"].as_array().unwrap().iter().map(|it| &it["verdict"]).collect();
+        assert_eq!(verdicts, decided[..count], "{signal}");
+        // Two of three do not look like all.
+        assert_eq!(answer["interrupted"]["asked"], count + 1, "{signal}");
     }
-    let folder = Folder::new("mistakes_interrupted_json");
-    let line = [
-        "check",
-        "philosophers:500",
-        "--property",
-        "eat_1 = 0",
-        "--property",
-        "eat_1 > 0",
-        "--property",
-        "AG eat_1 <= 1 & AG eat_2 <= 1",
-        "--initial",
-        "--engine",
-        "explicit",
-        "--max-seconds",
-        "60",
-        "--certificate",
-        "it.json",
-        "--json",
-    ];
+}
+
+/// Sends a signal to a check that searches for the answer to the property behind so many others.
+#[cfg(unix)]
+fn interrupted_in_json(signal: &str, decided: usize) -> std::process::Output {
+    let folder = Folder::new(&format!("mistakes_interrupted_json_{signal}_{decided}"));
+    let easy = ["eat_1 = 0", "eat_1 > 0", "eat_2 = 0", "eat_2 > 0"];
+    let mut line = vec!["check", "philosophers:500", "--initial", "--engine", "explicit"];
+    for property in easy[..decided].iter().chain(&["AG eat_1 <= 1 & AG eat_2 <= 1"]) {
+        line.extend(["--property", property]);
+    }
+    line.extend(["--max-seconds", "60", "--certificate", "it.json", "--json"]);
     let child = Command::new(env!("CARGO_BIN_EXE_cotama"))
         .args(line)
         .current_dir(folder.path())
@@ -241,18 +254,11 @@ fn who_interrupts_a_check_in_json_reads_what_is_decided() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    while !folder.path().join("it-2.json").exists() {
+    while !folder.path().join(format!("it-{decided}.json")).exists() {
         sleep(Duration::from_millis(10));
     }
     sleep(Duration::from_millis(200));
-    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    let kill = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status();
     assert!(kill.unwrap().success());
-    // Until the end of the output: the command has ended before.
-    let ended = child.wait_with_output().unwrap();
-    assert_eq!(ended.status.signal(), Some(2), "{ended:?}");
-    let answer: serde_json::Value = serde_json::from_slice(&ended.stdout).unwrap();
-    crate::schemas::validate("check", &answer);
-    let verdicts: Vec<_> =
-        answer["results"].as_array().unwrap().iter().map(|it| &it["verdict"]).collect();
-    assert_eq!(verdicts, ["true", "false"]);
+    child.wait_with_output().unwrap()
 }

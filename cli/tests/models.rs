@@ -37,7 +37,7 @@ fn it_is_said_of_each_law_how_it_was_shown() {
 }
 
 #[test]
-fn what_a_family_and_a_file_say_is_only_claimed() {
+fn laws_of_a_family_and_of_a_file_are_only_claimed() {
     let folder = Folder::new("models_claimed");
     let answer = folder.cotama(&["models", "philosophers:3", "--json"]).json(0);
     let net = named(&answer, "philosophers:3");

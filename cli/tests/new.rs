@@ -1,4 +1,4 @@
-//! What `cotama new` writes works as it is, and what it refuses leaves nothing behind.
+//! Crates by `cotama new` work as they are, and a refusal leaves nothing behind.
 
 use crate::common::{Ended, Folder};
 use std::path::Path;
@@ -72,6 +72,21 @@ fn a_board_plays_the_net_beside_it_and_needs_one() {
     assert_eq!(again.code, Some(2));
 }
 
+/// A run of the net of the template as a robot may log it.
+const NAIVE: &str = r#"{"t_ms":0,"event":"start"}
+{"t_ms":0,"fired":"start"}
+{"t_ms":80,"event":"heard"}
+{"t_ms":80,"fired":"still"}
+{"t_ms":450,"event":"heard"}
+{"t_ms":180,"fired":"miss"}
+{"t_ms":280,"fired":"miss"}
+{"t_ms":380,"fired":"miss"}
+{"t_ms":380,"fired":"lose"}
+{"t_ms":450,"fired":"recover"}
+{"t_ms":500,"event":"start"}
+{"t_ms":500,"fired":"start"}
+"#;
+
 #[test]
 #[ignore = "a minute: CI runs it"]
 fn crates_run_are_checked_and_fail_with_a_counterexample_when_they_are_broken() {
@@ -107,6 +122,21 @@ fn crates_run_are_checked_and_fail_with_a_counterexample_when_they_are_broken() 
             folder.cotama(&[command, "model.json", "--json"]).json(0);
         }
 
+        if kind == "net" {
+            let log = format!("{name}/log.jsonl");
+            let answer = folder.cotama(&["conform", "model.json", &log, "--json"]).json(0);
+            assert_eq!((&answer["conforms"], &answer["events"]), (&true.into(), &4.into()));
+            // The log that the program prints without a recorder: names of lines, and what fired
+            // late behind the event that made it known.
+            folder.write("naive.jsonl", NAIVE);
+            folder.cotama(&["conform", "model.json", "naive.jsonl", "--json"]).json(0);
+            folder.write(
+                "naive.jsonl",
+                NAIVE.replace("280,\"fired\":\"miss", "281,\"fired\":\"miss"),
+            );
+            folder.cotama(&["conform", "model.json", "naive.jsonl", "--json"]).json(1);
+        }
+
         let lib = format!("{name}/src/lib.rs");
         let text = folder.read(&lib);
         assert!(text.contains(whole));
@@ -125,7 +155,7 @@ fn crates_run_are_checked_and_fail_with_a_counterexample_when_they_are_broken() 
 }
 
 #[test]
-fn what_is_there_is_not_replaced_and_nothing_half_written() {
+fn an_existing_file_is_not_replaced_and_none_is_half_written() {
     let folder = Folder::new("new_refused");
     let refused = |arguments: &[&str], says: &[&str]| {
         let ended = folder.cotama(&[&["new"], arguments].concat());

@@ -222,7 +222,7 @@ objective = [
 "#;
 
 #[test]
-fn the_rule_with_the_exact_allocator_finds_what_the_rule_misses() {
+fn the_rule_with_the_exact_allocator_finds_the_plans_that_the_rule_misses() {
     let folder = Folder::new("plan_missed");
     folder.write("missed.toml", MISSED);
     let plan = |allocator: &str, code| {
@@ -233,4 +233,75 @@ fn the_rule_with_the_exact_allocator_finds_what_the_rule_misses() {
     let found = plan("exact", 0);
     assert_eq!((&found["status"], &found["allocator"]), (&json!("optimal"), &json!("exact")));
     assert_eq!(column(&found["plan"], "choice"), ["m", "a", "e"]);
+}
+
+/// A limit that no plan keeps is an answer with reasons, whatever the limit and the mission.
+#[test]
+fn every_limit_that_is_too_small_is_explained() {
+    for (mission, option, limits) in [
+        ("delivery", "--energy-limit", [1u64, 1_000, 138_000, 1_000_000, 1_029_331, 2_000_000]),
+        ("delivery", "--duration-limit", [1, 500, 29_999, 30_000, 133_332, 200_000]),
+        ("patrol", "--energy-limit", [1, 1_000, 50_000, 1_000_000, 2_000_000, 4_000_000]),
+        ("patrol", "--duration-limit", [1, 1_000, 8_000, 100_000, 300_000, 400_000]),
+    ] {
+        for limit in limits {
+            let limit = limit.to_string();
+            for command in ["plan", "run"] {
+                let mut words = vec![command, mission, option, &limit, "--json"];
+                words.extend((command == "run").then_some("--no-report"));
+                let answer = folder_of_none().cotama(&words).json(1);
+                let reason =
+                    if command == "plan" { &answer["reason"] } else { &answer["infeasible"] };
+                assert_eq!(
+                    reason["axis"],
+                    option[2..].split('-').next().unwrap(),
+                    "{words:?} {answer}"
+                );
+                assert!(!reason["heaviest"].as_array().unwrap().is_empty(), "{words:?}");
+                assert!(!reason["relaxations"].as_array().unwrap().is_empty(), "{words:?}");
+            }
+        }
+    }
+}
+
+/// The answer where a plan is asked for, and an error where one is needed to begin.
+#[test]
+fn a_mission_without_any_plan_has_the_same_reason_in_every_command() {
+    let folder = Folder::new("plan_none");
+    folder.write("faults.toml", "format = \"panorama-faults/1\"\n");
+    let hall = include_str!("../templates/mission.toml");
+    let limit = |text: &str, key: &str, to: u64| {
+        let line = text.lines().find(|it| it.starts_with(&format!("{key} = "))).unwrap();
+        text.replacen(line, &format!("{key} = {to}"), 1)
+    };
+    let delivery = cotama_models::missions::embedded::mission("delivery").unwrap().text;
+    for (text, why) in [
+        (limit(hall, "energy_mj", 1_000), "no plan within the energy limit: "),
+        (limit(hall, "energy_mj", 100_000), "no plan within the energy limit: "),
+        (limit(hall, "duration_ms", 9_000), "no plan within the duration limit: "),
+        (limit(&patrol(&[]), "energy_mj", 4_000_000), "no plan within the energy limit: 675.896 J"),
+        (limit(&patrol(&[]), "duration_ms", 90_000), "no plan within the duration limit: "),
+        (limit(delivery, "energy_mj", 1_000_000), "no plan within the energy limit: "),
+        (limit(delivery, "duration_ms", 29_999), "no plan within the duration limit: "),
+    ] {
+        folder.write("it.toml", &text);
+        let axis = if why.contains("energy") { "energy" } else { "duration" };
+        assert_eq!(folder.cotama(&["plan", "it.toml", "--json"]).json(1)["reason"]["axis"], axis);
+        let run = folder.cotama(&["run", "it.toml", "--no-report", "--json"]).json(1);
+        assert_eq!(run["infeasible"]["axis"], axis, "{why}");
+        for line in [
+            "campaign it.toml --runs 9 --json",
+            "campaign it.toml --compare --runs 9 --json",
+            "replay faults.toml --mission it.toml --json",
+        ] {
+            let words: Vec<_> = line.split(' ').collect();
+            let error = folder.cotama(&words).json(2);
+            assert!(error["message"].as_str().unwrap().contains(why), "{line}: {error}");
+            assert!(error["help"].as_str().unwrap().contains("cotama plan"), "{line}: {error}");
+        }
+    }
+}
+
+fn folder_of_none() -> Folder {
+    Folder::new("plan_limits")
 }

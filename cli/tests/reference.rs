@@ -23,7 +23,7 @@ const TABLES: [(&str, &str, &str, &str); 12] = [
     ("[run]", "/properties/run", "patrol", "[run]"),
 ];
 
-/// What a value is, in the words of the page.
+/// Returns the type of a value, in the words of the page.
 fn is(value: &Value) -> &'static str {
     match (value["type"].as_str().unwrap(), value["items"]["type"].as_str()) {
         ("integer", _) => "integer",
@@ -60,7 +60,7 @@ fn described(page: &str, heading: &str) -> BTreeSet<String> {
 }
 
 #[test]
-fn the_page_of_missions_is_what_the_schema_says_and_the_reader_knows() {
+fn the_page_of_missions_agrees_with_the_schema_and_the_reader() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/missions.md");
     let page = std::fs::read_to_string(page).unwrap();
     assert_eq!(page.matches("\n### ").count(), TABLES.len());

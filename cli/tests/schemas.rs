@@ -1,10 +1,13 @@
-//! The schemas in `schemas/` are those of the types, and every answer is as they say.
+//! The schemas in `schemas/cotama.json` are those of the types, and every answer is as they say.
 
 use crate::common::Folder;
-use serde_json::Value;
+use jsonschema::Validator;
+use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
-const COMMANDS: [&str; 21] = [
+const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
+
+const COMMANDS: [&str; 19] = [
     "list",
     "plan",
     "run",
@@ -24,38 +27,54 @@ const COMMANDS: [&str; 21] = [
     "campaign",
     "new",
     "error",
-    "mission",
-    "faults",
 ];
 
-fn stored(command: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("schemas/{command}.json"))
+fn stored() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("schemas/cotama.json")
+}
+
+/// The stored schema of an answer: the definitions of all, of which it names its own.
+fn schema(command: &str) -> Validator {
+    let text = std::fs::read_to_string(stored()).unwrap();
+    let mut schema: Value = serde_json::from_str(&text).unwrap();
+    schema["$ref"] = format!("#/answers/{command}").into();
+    jsonschema::validator_for(&schema).unwrap()
 }
 
 /// An answer is as its stored schema says.
 pub(crate) fn validate(command: &str, answer: &Value) {
-    let schema = std::fs::read_to_string(stored(command)).unwrap();
-    let validator = jsonschema::validator_for(&serde_json::from_str(&schema).unwrap()).unwrap();
-    let errors: Vec<_> = validator.iter_errors(answer).map(|error| error.to_string()).collect();
+    let errors: Vec<_> =
+        schema(command).iter_errors(answer).map(|error| error.to_string()).collect();
     assert!(errors.is_empty(), "{command}: {errors:?}");
 }
 
 #[test]
 fn the_stored_schemas_are_those_of_the_types() {
     let folder = Folder::new("schemas");
+    let (mut all, mut shared) = (Map::new(), Map::new());
     for command in COMMANDS {
         let printed = folder.cotama(&["schema", command]);
         assert_eq!(printed.code, Some(0));
-        cotama_golden::compare(stored(command), &printed.stdout);
+        let mut schema: Map<String, Value> = serde_json::from_str(&printed.stdout).unwrap();
+        assert_eq!(schema.remove("$schema").unwrap(), DRAFT, "{command}");
+        for (name, definition) in
+            schema.remove("$defs").iter().flat_map(|it| it.as_object().unwrap())
+        {
+            let other = shared.insert(name.clone(), definition.clone());
+            assert!(other.is_none_or(|it| it == *definition), "two types are called {name}");
+        }
+        all.insert(command.into(), schema.into());
     }
+    let about = "Answers of `cotama COMMAND --json`; `cotama schema COMMAND` prints one alone.";
+    let all = json!({ "$schema": DRAFT, "description": about, "answers": all, "$defs": shared });
+    cotama_golden::compare(stored(), &cotama_golden::json_lines(&all));
 }
 
 #[test]
 fn a_schema_refuses_an_answer_of_another_command_or_with_a_field_missing() {
     let folder = Folder::new("schemas_refuse");
     let mut answer = folder.cotama(&["list", "--json"]).json(0);
-    let schema = std::fs::read_to_string(stored("list")).unwrap();
-    let validator = jsonschema::validator_for(&serde_json::from_str(&schema).unwrap()).unwrap();
+    let validator = schema("list");
     assert!(validator.is_valid(&answer));
     answer["schema"] = "cotama/plan/1".into();
     assert!(!validator.is_valid(&answer));

@@ -1,4 +1,4 @@
-//! What people see, and what becomes of it in pipes, narrow windows and without colours.
+//! Screens for people, and their form in pipes, narrow windows and without colours.
 
 use crate::common::{Folder, golden};
 
@@ -47,6 +47,9 @@ fn no_line_is_wider_than_the_window_where_tables_can_be_wrapped() {
             "run service --no-report",
             "run fleet --no-report --robots 8 --tasks 20",
             "run fleet --robots 4 --tasks 4 --seeds 2",
+            "campaign patrol --runs 40 --require completed --shrink 2",
+            "campaign patrol --compare --runs 40",
+            "campaign delivery --compare --runs 9",
             "models",
             "models door",
             "models delivery",
@@ -72,8 +75,94 @@ fn no_line_is_wider_than_the_window_where_tables_can_be_wrapped() {
     }
 }
 
+/// A table that is too wide goes on in another block, with the names of its rows.
 #[test]
-fn a_reader_who_goes_away_is_no_error() {
+fn a_row_of_numbers_is_broken_between_columns_alone() {
+    let folder = Folder::new("screens_rows");
+    let missions = &["rigid", "usual", "exact", "upward"][..];
+    let mut blocks = 0;
+    for width in [60, 72, 80, 90, 120, 200] {
+        for (line, names) in [
+            ("campaign patrol --compare --runs 40", missions),
+            ("campaign patrol --compare --runs 1000 --confidence 0.999", missions),
+            ("campaign patrol --compare --runs 20 --strategy pairwise", missions),
+            ("campaign delivery --compare --runs 9", &["rule", "exact"]),
+            ("run fleet --robots 4 --tasks 4 --seeds 2", &["optimal", "rounds", "one-by-one"]),
+        ] {
+            let screen = folder.shell(&format!("COLUMNS={width} cotama {line}")).stdout;
+            let lines: Vec<_> = screen.lines().collect();
+            let first = |it: &str| it.split_whitespace().next().unwrap_or_default().to_owned();
+            let begins: Vec<_> =
+                (0..lines.len()).filter(|it| first(lines[*it]) == names[0]).collect();
+            assert!(!begins.is_empty(), "{screen}");
+            for at in &begins {
+                let found: Vec<_> =
+                    lines[*at..at + names.len()].iter().map(|it| first(it)).collect();
+                assert_eq!(found, names, "{width}: {line}\n{screen}");
+                let head = lines[at - 1];
+                assert!(head.starts_with("  ") && lines[at - 2].is_empty(), "{width}:\n{screen}");
+            }
+            blocks += begins.len();
+        }
+    }
+    assert!(blocks > 40, "{blocks} blocks");
+}
+
+/// An abbreviation is in the user's own file, of the analysis that a command lists, or explained
+/// on the screen itself.
+#[test]
+fn no_screen_has_an_abbreviation_that_nothing_explains() {
+    let folder = Folder::new("screens_words");
+    assert_eq!(folder.cotama(&["new", "mission", "hall"]).code, Some(0));
+    let analysis = folder.cotama(&["fmeca", "--json"]).stdout;
+    let is_short = |word: &str| {
+        let letters = word.chars().filter(char::is_ascii_uppercase).count();
+        let shape = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit() || ".-".contains(c);
+        word.len() > 1 && letters > 0 && word.chars().all(shape)
+    };
+    let words = |text: &str| -> Vec<String> {
+        let apart = |c: char| !(c.is_alphanumeric() || ".-".contains(c));
+        let words = text.split(apart).map(|it| it.trim_matches(['.', '-']).to_owned());
+        words.collect()
+    };
+    let mut seen = 0;
+    for (mission, line) in [
+        ("patrol", "plan patrol"),
+        ("patrol", "plan patrol --energy-limit 4000000"),
+        ("patrol", "plan patrol --lost kinect"),
+        ("patrol", "run patrol --no-report"),
+        ("patrol", "campaign patrol --runs 60 --require completed"),
+        ("delivery", "plan delivery"),
+        ("delivery", "run delivery --no-report"),
+        ("delivery", "campaign delivery --runs 60 --require requests<=0 --shrink 3"),
+        ("hall.toml", "plan hall.toml"),
+        ("hall.toml", "run hall.toml --no-report"),
+        ("service", "run service --no-report"),
+        ("fleet", "run fleet --robots 6 --tasks 9 --no-report"),
+    ] {
+        let own = match mission.strip_suffix(".toml") {
+            Some(_) => folder.read(mission),
+            None => folder.cotama(&["show", mission]).stdout,
+        };
+        let known = [words(&own), words(&analysis)].concat();
+        let ended = folder.cotama(&line.split(' ').collect::<Vec<_>>());
+        let screen = ended.stdout;
+        assert!(matches!(ended.code, Some(0 | 1)), "{line}: {}", ended.stderr);
+        for word in words(&screen).into_iter().filter(|it| is_short(it)) {
+            let number = word.strip_prefix('A').is_some_and(|it| it.parse::<u32>().is_ok());
+            let explained = number && screen.contains("activities");
+            // `PF.OPT`, `TO.FULL`.
+            let set = word.contains('.') && screen.contains("sets of modules");
+            let explained = explained || set || known.contains(&word);
+            assert!(explained, "{line}: `{word}`\n{screen}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 100, "{seen}");
+}
+
+#[test]
+fn a_closed_pipe_is_no_error() {
     let folder = Folder::new("screens_pipe");
     for command in [
         "plan patrol --json",

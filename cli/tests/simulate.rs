@@ -42,7 +42,7 @@ fn a_door_opens_and_closes_by_itself() {
 }
 
 #[test]
-fn what_fires_at_once_belongs_to_what_made_it_fire() {
+fn immediate_firings_belong_to_the_step_that_caused_them() {
     let answer = simulate("settles", &["crossing", "Button", "+10000"], 0);
     assert_eq!(answer["steps"][1]["fired"], json!(["served", "warn"]));
     assert_eq!(answer["deadline"], json!({ "time_ms": 13_000, "transition": "red" }));
@@ -126,7 +126,7 @@ fn a_round_offers_several_events_at_once() {
     assert_eq!(step["events"], json!(["left_first_1", "right_first_2"]));
     assert_eq!(step["fired"], json!(["left_first_1"]));
     assert_eq!(step["ignored"][0]["text"], "others of the round took what it needs");
-    // What one transition enables fires in the next round only.
+    // A transition enabled by another one fires in the next round only.
     let answer = json(&["crossing", "Button", "+10000", "+0"]);
     assert_eq!(answer["fired"], json!(["press.Stop.request_0", "served", "warn"]));
     assert_eq!(answer["steps"][1]["fired"], json!(["served"]));

@@ -1,4 +1,4 @@
-//! `cotama run service` and `cotama run fleet`: teams of robots.
+//! Teams of robots: `cotama run service`, `cotama run fleet`, and what other commands make of one.
 
 use crate::common::{Folder, golden};
 use crate::schemas::validate;
@@ -50,7 +50,7 @@ fn a_fleet_ends_all_its_tasks_and_leaves_a_trace() {
     assert_eq!((&answer["outcome"], &answer["run"]["done"]), (&json!("completed"), &json!(20)));
     let trace = folder.read("t.jsonl");
     let first: serde_json::Value = serde_json::from_str(trace.lines().next().unwrap()).unwrap();
-    assert_eq!(first["schema"], "cotama/team-trace/1");
+    assert_eq!(first["schema"], "cotama/team-trace/2");
     assert!(trace.lines().last().unwrap().contains("\"record\":\"end\""));
     assert_eq!(trace.lines().filter(|it| it.contains("\"record\":\"done\"")).count(), 20);
 }
@@ -71,11 +71,16 @@ fn allocations_are_compared_on_common_seeds() {
 #[test]
 fn options_of_missions_and_of_teams_are_told_apart() {
     let folder = Folder::new("team_options");
+    let tenth = "fault = [{ at_ms = 0, robot = \"r10\", mode = \"SON1\" }]";
+    folder.write("tenth.toml", format!("format = \"cotama-team-faults/1\"\n{tenth}\n"));
+    folder.shell("cotama show service > team.toml");
     for (line, said) in [
         ("run patrol --robots 3", "--robots is for teams"),
         ("run flete", "did you mean the team `fleet`?"),
         ("run fleet --upward", "--upward is for missions"),
-        ("run fleet --faults f.toml", "teams read no file of faults"),
+        ("run fleet --faults f.toml", "give the path of a file of a team's faults"),
+        ("run fleet --robots 3 --failures 0 --faults tenth.toml", "unknown robot `r10`"),
+        ("run - < team.toml", "a team is read from a file"),
         ("run fleet --hidden-handle", "is for `cotama run service`"),
         ("run service --tasks 3", "--tasks is for `cotama run fleet`"),
         ("run fleet --robots 3 --failures 4", "there are 3 robots"),
@@ -85,5 +90,220 @@ fn options_of_missions_and_of_teams_are_told_apart() {
         let ended = folder.shell(&format!("cotama {line}"));
         assert_eq!(ended.code, Some(2), "{line}");
         assert!(ended.stderr.contains(said), "{line}: {}", ended.stderr);
+    }
+}
+
+/// Two robots, of which both can carry and one can speak.
+const TWO: &str = r#"format = "cotama-team/1"
+name = "two robots"
+floor = { places = ["hall", "desk"], way = [{ between = ["hall", "desk"], length_mm = 6000 }] }
+robot = [
+  { name = "anna", at = "hall", skills = ["grasp", "talk"] },
+  { name = "ben", at = "desk", skills = ["grasp"] },
+]
+[[task]]
+name = "parcel"
+from = "hall"
+to = "desk"
+skip_ms = 600000
+[[task.plan]]
+name = "carry"
+[[task.plan.role]]
+name = "carrier"
+needs = ["grasp"]
+take = "object"
+give = "goal"
+take_ms = 5000
+give_ms = 5000
+[[task.plan]]
+name = "hand over"
+[[task.plan.role]]
+name = "first"
+needs = ["grasp"]
+take = "object"
+give = { partner_at = "desk" }
+take_ms = 1000
+give_ms = 1000
+[[task.plan.role]]
+name = "second"
+needs = ["talk"]
+take = { partner_at = "desk" }
+give = "goal"
+take_ms = 1000
+give_ms = 1000
+[[task]]
+name = "greet"
+from = "hall"
+to = "desk"
+skip_ms = 9000
+[[task.plan]]
+name = "speak"
+[[task.plan.role]]
+name = "speaker"
+needs = ["talk"]
+take = { words_at = "desk" }
+give = "nobody"
+take_ms = 1000
+give_ms = 0
+"#;
+
+/// The same in JSON.
+fn two_in_json() -> serde_json::Value {
+    let role = |name: &str, needs: &str, take: serde_json::Value, give: serde_json::Value| {
+        json!({ "name": name, "needs": [needs], "take": take, "give": give, "take_ms": 1000,
+                "give_ms": 1000 })
+    };
+    let there = json!({ "partner_at": "desk" });
+    json!({
+        "format": "cotama-team/1",
+        "name": "two robots",
+        "floor": {
+            "places": ["hall", "desk"],
+            "way": [{ "between": ["hall", "desk"], "length_mm": 6000 }],
+        },
+        "robot": [
+            { "name": "anna", "at": "hall", "skills": ["grasp", "talk"] },
+            { "name": "ben", "at": "desk", "skills": ["grasp"] },
+        ],
+        "task": [
+            {
+                "name": "parcel", "from": "hall", "to": "desk", "skip_ms": 600_000,
+                "plan": [
+                    { "name": "carry", "role": [
+                        { "name": "carrier", "needs": ["grasp"], "take": "object", "give": "goal",
+                          "take_ms": 5000, "give_ms": 5000 },
+                    ]},
+                    { "name": "hand over", "role": [
+                        role("first", "grasp", json!("object"), there.clone()),
+                        role("second", "talk", there, json!("goal")),
+                    ]},
+                ],
+            },
+            {
+                "name": "greet", "from": "hall", "to": "desk", "skip_ms": 9000,
+                "plan": [{ "name": "speak", "role": [
+                    { "name": "speaker", "needs": ["talk"], "take": { "words_at": "desk" },
+                      "give": "nobody", "take_ms": 1000, "give_ms": 0 },
+                ]}],
+            },
+        ],
+    })
+}
+
+#[test]
+fn a_team_in_json_is_the_team_in_toml_for_every_command() {
+    let folder = Folder::new("team_json");
+    folder.write("two.toml", TWO);
+    folder.write("two.json", format!("{:#}", two_in_json()));
+    for line in [
+        "show FILE",
+        "run FILE --no-report --json",
+        "assign FILE --json",
+        "assign - --json < FILE",
+        "statespace FILE --mcc",
+        "export FILE --format json",
+        "campaign FILE --runs 3 --json",
+    ] {
+        let said = |file: &str| {
+            let ended = folder.shell(&format!("cotama {}", line.replace("FILE", file)));
+            assert_eq!(ended.code, Some(0), "{line}: {}", ended.stderr);
+            ended.stdout.replace(file, "FILE")
+        };
+        assert_eq!(said("two.json"), said("two.toml"), "{line}");
+    }
+}
+
+#[test]
+fn a_team_at_work_is_assigned_as_it_starts() {
+    let folder = Folder::new("team_assign");
+    golden("assign_service.txt", &folder.cotama(&["assign", "service"]).stdout);
+    folder.shell("cotama show service > mine.toml");
+    let named = folder.cotama(&["assign", "service", "--json"]).json(0);
+    validate("assign", &named);
+    assert_eq!(folder.cotama(&["assign", "mine.toml", "--json"]).json(0), named);
+    // Anna stands where the parcel is. She carries it: to greet besides would take two of her.
+    folder.write("two.toml", TWO);
+    let answer = folder.cotama(&["assign", "two.toml", "--json"]).json(0);
+    validate("assign", &answer);
+    assert_eq!(answer["cost_denominator"], 2);
+    let done = answer["assignment"].as_array().unwrap();
+    assert_eq!(done.len(), 1, "{answer}");
+    assert_eq!((&done[0]["plan"], &done[0]["robots"]), (&json!("carry"), &json!(["anna"])));
+}
+
+#[test]
+fn the_protocol_of_a_team_keeps_its_requirements() {
+    let folder = Folder::new("team_check");
+    folder.write("two.toml", TWO);
+    let answer = folder.cotama(&["check", "two.toml", "--json"]).json(0);
+    validate("check", &answer);
+    let results = answer["results"].as_array().unwrap();
+    let ids: Vec<_> = results.iter().map(|it| it["id"].as_str().unwrap()).collect();
+    let all = ["S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9", "L1", "L2", "L3", "L4"];
+    assert_eq!(ids, all);
+    assert!(results.iter().all(|it| it["verdict"] == "true"));
+    // A robot that cannot speak never greets; and the questions can be answered no.
+    let fault = "[[fault]]\nat_ms = 9\nrobot = \"anna\"\nmode = \"EST1\"\n";
+    folder.write("fails.toml", format!("{TWO}{fault}"));
+    for (file, property, code) in [
+        ("two.toml", "AG !r2.executing.t2", 0),
+        ("two.toml", "EF (r2.executing.t1 & !r1.executing.t1)", 0),
+        ("two.toml", "EF (r1.executing.t1 & r2.executing.t1)", 0),
+        ("two.toml", "EF r1.down", 1),
+        ("two.toml", "AF t2.reported", 1),
+        ("fails.toml", "EF r1.down", 0),
+        ("fails.toml", "EF t2.reported", 0),
+        ("fails.toml", "EF t1.reported", 1),
+    ] {
+        let ended = folder.cotama(&["check", file, "--property", property]);
+        assert_eq!(ended.code, Some(code), "{file} {property}: {}{}", ended.stdout, ended.stderr);
+    }
+    assert_eq!(folder.cotama(&["check", "fails.toml"]).code, Some(0));
+}
+
+#[test]
+fn a_team_too_large_for_a_net_is_unknown() {
+    let folder = Folder::new("team_large");
+    let ended = folder.cotama(&["check", "fleet"]);
+    assert_eq!((ended.code, ended.stderr.as_str()), (Some(3), ""));
+    golden("check_fleet.txt", &ended.stdout);
+    let answer = folder.cotama(&["check", "fleet", "--json", "--junit", "f.xml"]).json(3);
+    validate("check", &answer);
+    let verdicts = answer["results"].as_array().unwrap().iter().map(|it| it["verdict"].clone());
+    assert_eq!(verdicts.collect::<Vec<_>>(), vec![json!("unknown"); 13]);
+    assert!(folder.read("f.xml").contains("S1"));
+    let asked = ["check", "fleet", "--mcc", "--property", "AG !(a & b)"];
+    assert_eq!(
+        folder.cotama(&asked).stdout,
+        "FORMULA AG\\u{20}!(a\\u{20}&\\u{20}b) CANNOT_COMPUTE\n"
+    );
+    let other = folder.cotama(&["statespace", "fleet"]);
+    assert_eq!(other.code, Some(2));
+    assert!(other.stderr.contains("may have more than 100000 transitions"), "{}", other.stderr);
+}
+
+#[test]
+fn a_broken_team_is_told_once_with_its_place() {
+    let folder = Folder::new("team_broken");
+    let whole = format!("{:#}", two_in_json());
+    for (from, to, at, said) in [
+        ("\"hall\",\n", "\"hall\" \n", None, "`,` or `]` is needed here"),
+        ("\"length_mm\": 6000", "\"length_mm\": \"far\"", None, "must be an integer, not a text"),
+        ("\"at\": \"desk\"", "\"at\": \"dsk\"", None, "did you mean `desk`?"),
+        ("\"skip_ms\": 9000", "\"skip\": 9000", None, "did you mean `skip_ms`?"),
+        (&whole, "{\"format\": \"cotama-team/1\"", Some("1:27"), "the text is cut off"),
+        (&whole, "{\"format\": \"cotama-team/2\"}", Some("1:12"), "unknown format"),
+    ] {
+        assert!(whole.contains(from), "{from}");
+        folder.write("t.json", whole.replacen(from, to, 1));
+        for command in ["assign t.json", "run t.json --no-report", "check t.json", "show t.json"] {
+            let ended = folder.shell(&format!("cotama {command}"));
+            assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""), "{command}: {to}");
+            assert!(ended.stderr.contains(said), "{command}: {}", ended.stderr);
+            assert_eq!(ended.stderr.matches(" --> ").count(), 1, "{command}: {}", ended.stderr);
+            if let Some(at) = at {
+                assert!(ended.stderr.contains(&format!("t.json:{at}")), "{}", ended.stderr);
+            }
+        }
     }
 }

@@ -35,7 +35,8 @@ mod firmware {
         }
     }
 
-    /// What interrupts leave to the main loop. A fifth event in one tick is counted, not kept.
+    /// The events that interrupts leave to the main loop. A fifth event in one tick is counted, not
+    /// kept.
     #[derive(Default)]
     pub(crate) struct Queue {
         events: [Option<(Millis, pump::Event)>; 4],
@@ -80,7 +81,7 @@ mod firmware {
         for (at, event) in events.into_iter().flatten() {
             let _ = pump.offer_with(at, &event, &mut Drive(pins)); // law `handles(all)`
         }
-        // What was due since the last tick fires at the time when it was due.
+        // Transitions due since the last tick fire with the time when they were due.
         let _ = pump.advance_with(now, &mut Drive(pins));
     }
 }
@@ -97,7 +98,8 @@ impl<W: Write> firmware::Pins for Board<W> {
     }
 }
 
-/// What the sensors say, and when. At 2.5 s a contact bounces; that filling never gets full.
+/// The events of the sensors, with their times in ms. At 2.5 s a contact bounces; that filling
+/// never gets full.
 const INTERRUPTS: [(u64, Event); 9] = [
     (204, Event::low),
     (1_911, Event::full),

@@ -26,7 +26,7 @@ net! {
     }
 }
 
-/// What the supervisor drives, and when it did.
+/// The outputs of the supervisor, with their times.
 struct Motors(Vec<(Millis, link::Output)>);
 
 impl<P: Names<Output = link::Output>> Observer<P> for Motors {
@@ -41,7 +41,7 @@ impl<P: Names<Output = link::Output>> Observer<P> for Motors {
     }
 }
 
-/// What the board meets.
+/// Events that the board meets.
 enum Meets {
     Radio,
     /// The last that the capacitors allow for is to store the supervisor.

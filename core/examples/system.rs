@@ -35,14 +35,14 @@ net! {
     }
 }
 system! {
-    /// What the camera sees waits until the turn of the arm.
+    /// A part seen by the camera waits until the turn of the arm.
     pub mod cell {
         nets { camera: camera, arm: arm }
         links { camera.part => arm.part mail 2; }
     }
 }
 
-/// What events carry along: where a part lies on the belt, mm.
+/// Data that events carry along: the position of a part on the belt, mm.
 type Cell = cell::Carrying<u16>;
 const SEEN: cell::Event = cell::Event::camera(camera::Event::seen);
 

@@ -1,4 +1,4 @@
-//! What an allocator answers, and the trait that both allocators share.
+//! The answers of an allocator, and the trait that both allocators share.
 
 use crate::problem::Problem;
 
@@ -80,7 +80,7 @@ pub struct Shortfall {
 }
 
 impl Shortfall {
-    /// What is missing on an axis; `None` when the least total is within the limit.
+    /// Returns the shortage on an axis, or `None` when the least total is within the limit.
     #[must_use]
     pub const fn new(axis: usize, limit: u64, least: u64) -> Option<Self> {
         if least > limit { Some(Self { axis, limit, least }) } else { None }
@@ -92,7 +92,7 @@ impl Shortfall {
         self.axis
     }
 
-    /// Its inclusive limit.
+    /// Returns the inclusive limit of the axis.
     #[must_use]
     pub const fn limit(&self) -> u64 {
         self.limit
@@ -160,7 +160,7 @@ pub struct Planned<const A: usize> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MemoryError {
-    /// Which memory.
+    /// The kind of memory that is too small.
     pub what: &'static str,
     /// How many elements are needed.
     pub needed: usize,
@@ -183,4 +183,17 @@ pub(crate) const fn enough(
     given: usize,
 ) -> Result<(), MemoryError> {
     if given < needed { Err(MemoryError { what, needed, given }) } else { Ok(()) }
+}
+
+/// Returns as many elements as are needed: no answer depends on the problems before.
+#[cfg(feature = "alloc")]
+pub(crate) fn at_least<T: Copy>(
+    memory: &mut alloc::vec::Vec<T>,
+    needed: usize,
+    empty: T,
+) -> &mut [T] {
+    if memory.len() < needed {
+        memory.resize(needed, empty);
+    }
+    memory.get_mut(..needed).unwrap_or(&mut [])
 }

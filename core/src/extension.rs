@@ -34,6 +34,7 @@ macro_rules! __definition {
 #[macro_export]
 macro_rules! __net_extended {
     (
+        $(@ $unread:ident)?
         { $($constants:tt)* } { $($places:tt)* } { $($flags:tt)* } { $($counters:tt)* }
         { $($shared:tt)* } { $($events:tt)* } { $($outputs:tt)* } { $($groups:tt)* }
         { $($lines:tt)* } { $($ignored:tt)* } { $($laws:tt)* }
@@ -103,6 +104,16 @@ macro_rules! __net_extended {
                 ignore { $($ignored)* $($($more_ignored)*)? }
                 laws { $($laws)* $($($more_laws)*)? }
             }
+        }
+    };
+    // An extension that cannot be read: the cure, and the compiler's own words at the token.
+    ({ $($constants:tt)* } $a:tt $b:tt $c:tt $d:tt $e:tt $f:tt $g:tt $h:tt $i:tt $j:tt
+        $head:tt $base:ident $(:: $base_in:ident)* { $($more:tt)* }
+    ) => {
+        $crate::__net_extension_mistake! { $base $($more)* }
+        $crate::__net_extended! {
+            @unread { $($constants)* } $a $b $c $d $e $f $g $h $i $j
+            $head $base $(:: $base_in)* { $($more)* }
         }
     };
 }

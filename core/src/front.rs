@@ -108,7 +108,9 @@ impl<'m, const A: usize> Front<'m, A> {
         let (mut first, mut end) = (0usize, 1usize);
         for candidates in activities {
             for (axis, rest) in numbered(&mut rest) {
-                *rest = rest.saturating_sub(u64::from(cheapest(candidates, axis)));
+                let cheapest = u64::from(cheapest(candidates, axis));
+                debug_assert!(cheapest <= *rest, "the activities that are left take it");
+                *rest = rest.saturating_sub(cheapest);
             }
             let mut room = problem.limits();
             for (room, &rest) in room.iter_mut().zip(&rest) {
@@ -116,6 +118,7 @@ impl<'m, const A: usize> Front<'m, A> {
             }
             let mut next = end;
             for parent in first..end {
+                debug_assert!(parent < end && end <= nodes.len(), "a node that was made");
                 let Some(&from) = nodes.get(parent) else { break };
                 for (choice, candidate) in numbered(candidates.iter()) {
                     let mut cost = from.cost;
@@ -133,6 +136,7 @@ impl<'m, const A: usize> Front<'m, A> {
                 }
             }
             let kept = undominated(nodes.get_mut(end..next).unwrap_or(&mut []));
+            debug_assert!(end + kept <= next, "nodes are only dropped");
             (first, end) = (end, end.wrapping_add(kept));
         }
         let within = problem.within_limits(&core::array::from_fn(|axis| problem.least(axis)));
@@ -145,8 +149,10 @@ impl<'m, const A: usize> Front<'m, A> {
 /// Sorts partial plans and moves the undominated ones to the front; returns their number.
 fn undominated<const A: usize>(nodes: &mut [Node<A>]) -> usize {
     sort_by_key(nodes, |node| (node.cost, Reverse(node.quality), node.parent, node.choice));
-    // What dominates a plan comes before it; the nearest are the likeliest.
-    keep_undominated(nodes, usize::MAX, Node::dominates).len()
+    // Each plan that dominates another comes before it; the nearest are the likeliest.
+    let kept = keep_undominated(nodes, usize::MAX, Node::dominates);
+    debug_assert!(kept.is_sorted_by_key(|node| node.cost), "cheaper plans come first");
+    kept.len()
 }
 
 impl<const A: usize> FrontPlans<'_, A> {

@@ -50,6 +50,7 @@ impl Equipment {
     /// Whether there are at least `needs` units of every kind.
     #[must_use]
     pub const fn covers(self, needs: Self) -> bool {
+        debug_assert!((self.0 | needs.0) & GUARDS == 0, "no kind borrows from the next");
         (self.0 | GUARDS).wrapping_sub(needs.0) & GUARDS == GUARDS
     }
 
@@ -64,6 +65,7 @@ impl Equipment {
             packed |= (larger as u64) << (4 * kind as u32);
             kind += 1;
         }
+        debug_assert!(packed & GUARDS == 0, "the larger of two counts is a count");
         Self(packed)
     }
 
@@ -71,7 +73,10 @@ impl Equipment {
     #[must_use]
     pub const fn without(self, kind: usize, count: u8) -> Self {
         match self.with(kind, self.of(kind).saturating_sub(count)) {
-            Some(rest) => rest,
+            Some(rest) => {
+                debug_assert!(self.covers(rest), "what is left was there");
+                rest
+            }
             None => self,
         }
     }

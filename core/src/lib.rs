@@ -9,6 +9,7 @@
 //! | module | what it is |
 //! | --- | --- |
 //! | [`units`] | physical quantities as integers, with checked arithmetic |
+//! | [`ticks`] | counters of 32 bits that begin anew, widened to times that do not |
 //! | [`hardware`] | switchable hardware, counted in units |
 //! | [`problem`] | activities in sequence, candidates with a cost per axis, limits |
 //! | [`allocation`] | the trait of the allocators and their answers |
@@ -21,10 +22,12 @@
 //! | [`player`] | plays a net or a system: events and time in, what fired out; snapshots |
 //! | [`executive`] | periodic modules on one processor, their watchdogs, proofs of response times |
 //! | [`team`] | who does what in a team of robots |
+//! | [`text`] | characters of a text that are obeyed or hidden where it is shown |
 //! | [`guide`] | from an `enum` and a `match` to a checked net, in five minutes |
 //!
-//! Features, both off by default: `alloc`, for nets that are made at run time on a heap; `defmt`,
-//! so that quantities, outcomes, firings, and what a net names implement `defmt::Format`.
+//! Features, both off by default: `alloc`, for nets that are made at run time on a heap, and
+//! workspaces that hold the memory of [`exact`] and [`team::winners`]; `defmt`, so that quantities,
+//! outcomes, firings, and what a net names implement `defmt::Format`.
 //!
 //! Laws of a net speak of what the player does, and are checked while compiling. One
 //! [`player::Player`] plays nets and systems. A player of a [`player::Checked`] program takes no
@@ -60,9 +63,11 @@ pub mod problem;
 pub mod proofs;
 pub mod system;
 pub mod team;
+pub mod text;
+pub mod ticks;
 pub mod units;
 
-/// What `net!` and `system!` expand to: no part of the API, and free to change.
+/// Items that `net!` and `system!` expand to: no part of the API, and free to change.
 #[doc(hidden)]
 pub mod __private {
     pub use crate::net::source::Written;

@@ -1,8 +1,8 @@
-//! What a net and a player say in defmt's logs, by name: feature `defmt`.
+//! The names that a net and a player write to defmt's logs: feature `defmt`.
 //!
 //! Names are interned: they stand in the file of the image and not in flash, and numbers go over
-//! the wire. What `net!` and `system!` make implements `defmt::Format` without a dependency on defmt in
-//! the crate of the net.
+//! the wire. What `net!` and `system!` make implements `defmt::Format` without a dependency on
+//! defmt in the crate of the net.
 
 /// Names of the enums of a net: `defmt::Format` writes that of the variant, and leaves out what an
 /// event carries along.

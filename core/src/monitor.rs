@@ -33,24 +33,25 @@ pub const MAX_AMOUNT: u64 = 1 << 61;
 
 /// An amount beyond [`MAX_AMOUNT`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct AmountOverflow {
+pub struct AmountError {
     /// The axis of the amount.
     pub axis: usize,
 }
 
-impl core::fmt::Display for AmountOverflow {
+impl core::fmt::Display for AmountError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         write!(f, "an amount on axis {} is beyond {MAX_AMOUNT}", self.axis)
     }
 }
 
-impl core::error::Error for AmountOverflow {}
+impl core::error::Error for AmountError {}
 
 /// Why limits and an order do not make a monitor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum MonitorError {
     /// A limit is beyond [`MAX_AMOUNT`].
-    Limit(AmountOverflow),
+    Limit(AmountError),
     /// The order of treatment does not name every axis once.
     BadOrder,
 }
@@ -85,11 +86,11 @@ pub struct Upward<const A: usize> {
     /// How much some margin must have grown since the last plan; zero on an axis means: not on this
     /// axis.
     pub growth: [u64; A],
-    /// What an upward plan leaves unspent on each axis.
+    /// Amount that an upward plan leaves unspent on each axis.
     pub reserve: [u64; A],
 }
 
-/// What the monitor asks for.
+/// A request of the monitor to plan anew.
 ///
 /// ```
 /// use cotama_core::hardware::Equipment;
@@ -177,7 +178,7 @@ impl<const A: usize> Monitor<A> {
         self
     }
 
-    /// What has been used on each axis.
+    /// Returns the amount used on each axis.
     #[must_use]
     pub const fn used(&self) -> [u64; A] {
         self.used
@@ -186,8 +187,8 @@ impl<const A: usize> Monitor<A> {
     /// Adds consumption.
     ///
     /// # Errors
-    /// [`AmountOverflow`] when a total passes [`MAX_AMOUNT`]; nothing is added then.
-    pub fn spend(&mut self, cost: &[u64; A]) -> Result<(), AmountOverflow> {
+    /// [`AmountError`] when a total passes [`MAX_AMOUNT`]; nothing is added then.
+    pub fn spend(&mut self, cost: &[u64; A]) -> Result<(), AmountError> {
         let mut used = self.used;
         for axis in 0..A {
             used[axis] = checked(axis, used[axis].saturating_add(cost[axis]))?;
@@ -196,14 +197,14 @@ impl<const A: usize> Monitor<A> {
         Ok(())
     }
 
-    /// What is left of each limit, for a plan downwards (rule 4 of the algorithm); zero where it is
-    /// passed.
+    /// Returns the rest of each limit, for a plan downwards (rule 4 of the algorithm); zero where
+    /// it is passed.
     #[must_use]
     pub fn left(&self) -> [u64; A] {
         core::array::from_fn(|axis| self.limits[axis].saturating_sub(self.used[axis]))
     }
 
-    /// What is left of each limit for a plan upwards: [`Self::left`] less the reserve.
+    /// Returns the rest of each limit for a plan upwards: [`Self::left`] less the reserve.
     #[must_use]
     pub fn room(&self) -> [u64; A] {
         let reserve = self.upward.map_or([0; A], |upward| upward.reserve);
@@ -213,11 +214,15 @@ impl<const A: usize> Monitor<A> {
     /// The margins: limit less used less planned rest, on each axis (eqs. 7 and 8).
     ///
     /// # Errors
-    /// [`AmountOverflow`] for a rest beyond [`MAX_AMOUNT`].
-    pub fn margins(&self, rest: &[u64; A]) -> Result<[i64; A], AmountOverflow> {
+    /// [`AmountError`] for a rest beyond [`MAX_AMOUNT`].
+    pub fn margins(&self, rest: &[u64; A]) -> Result<[i64; A], AmountError> {
         let mut margins = [0; A];
         for axis in 0..A {
             let rest = checked(axis, rest[axis])?;
+            debug_assert!(
+                self.limits[axis].max(self.used[axis]) <= MAX_AMOUNT,
+                "margins are exact"
+            );
             // Exact: none of the three is beyond `MAX_AMOUNT`.
             let left =
                 self.limits[axis].cast_signed().saturating_sub(self.used[axis].cast_signed());
@@ -230,8 +235,8 @@ impl<const A: usize> Monitor<A> {
     /// request.
     ///
     /// # Errors
-    /// [`AmountOverflow`] for a rest beyond [`MAX_AMOUNT`].
-    pub fn planned(&mut self, rest: &[u64; A]) -> Result<(), AmountOverflow> {
+    /// [`AmountError`] for a rest beyond [`MAX_AMOUNT`].
+    pub fn planned(&mut self, rest: &[u64; A]) -> Result<(), AmountError> {
         self.baseline = self.margins(rest)?;
         self.hardware_returned = false;
         Ok(())
@@ -246,13 +251,13 @@ impl<const A: usize> Monitor<A> {
     /// there is.
     ///
     /// # Errors
-    /// [`AmountOverflow`] for a rest beyond [`MAX_AMOUNT`].
+    /// [`AmountError`] for a rest beyond [`MAX_AMOUNT`].
     pub fn assess(
         &self,
         rest: &[u64; A],
         needs: Equipment,
         available: Equipment,
-    ) -> Result<Request, AmountOverflow> {
+    ) -> Result<Request, AmountError> {
         if !available.covers(needs) {
             return Ok(Request::Down(Trigger::Hardware));
         }
@@ -262,6 +267,7 @@ impl<const A: usize> Monitor<A> {
         {
             return Ok(Request::Down(Trigger::Margin { axis }));
         }
+        debug_assert!(margins.iter().all(|it| *it >= 0), "each margin below 0 is found");
         let Some(upward) = self.upward else { return Ok(Request::Keep) };
         let reserve_kept =
             (0..A).all(|axis| margins[axis] >= upward.reserve[axis].min(MAX_AMOUNT).cast_signed());
@@ -280,8 +286,8 @@ impl<const A: usize> Monitor<A> {
     /// whose worst cost is `way` (see [`worst`]). Below zero, reaching that end is not guaranteed.
     ///
     /// # Errors
-    /// [`AmountOverflow`] for a way beyond [`MAX_AMOUNT`].
-    pub fn return_margin(&self, way: &[u64; A]) -> Result<[i64; A], AmountOverflow> {
+    /// [`AmountError`] for a way beyond [`MAX_AMOUNT`].
+    pub fn return_margin(&self, way: &[u64; A]) -> Result<[i64; A], AmountError> {
         self.margins(way)
     }
 }
@@ -310,8 +316,8 @@ pub fn worst<const A: usize>(activities: &[&[Candidate<A>]]) -> [u64; A] {
     })
 }
 
-const fn checked(axis: usize, amount: u64) -> Result<u64, AmountOverflow> {
-    if amount > MAX_AMOUNT { Err(AmountOverflow { axis }) } else { Ok(amount) }
+const fn checked(axis: usize, amount: u64) -> Result<u64, AmountError> {
+    if amount > MAX_AMOUNT { Err(AmountError { axis }) } else { Ok(amount) }
 }
 
 #[cfg(test)]

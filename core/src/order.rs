@@ -12,11 +12,13 @@ pub(crate) fn sort_by_key<T, K: Ord>(list: &mut [T], key: impl Fn(&T) -> K) {
         _ => false,
     };
     let swap = |list: &mut [T], a: usize, b: usize| {
+        debug_assert!(a != b && a.max(b) < list.len(), "two places of the list");
         if let Ok([a, b]) = list.get_disjoint_mut([a, b]) {
             core::mem::swap(a, b);
         }
     };
     sort_list(list, before, swap);
+    debug_assert!(list.is_sorted_by_key(&key), "rising keys");
 }
 
 /// Sorts by what says which of two elements comes before the other, and by what swaps two: in place
@@ -34,6 +36,7 @@ pub(crate) fn sort_list<T>(
         swap(list, 0, end);
         sift(list, 0, end, &before, &swap);
     }
+    debug_assert!((1..count).all(|at| !before(list, at, at - 1)), "a sorted list");
 }
 
 /// Moves the elements that none kept before them dominates to the front, in their order, and
@@ -52,6 +55,7 @@ pub(crate) fn keep_undominated<T: Copy>(
         if before.iter().rev().take(most).any(|other| dominates(other, &new)) {
             continue;
         }
+        debug_assert!(kept <= next, "no element that is still to be looked at is overwritten");
         if let Some(place) = list.get_mut(kept) {
             *place = new;
             kept = kept.wrapping_add(1);
@@ -88,7 +92,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_sorted_list_is_what_the_library_makes_of_it(
+        fn a_sorted_list_equals_that_of_the_library(
             mut list in prop::collection::vec(0u16..50, 0..40)
         ) {
             let mut expected = list.clone();

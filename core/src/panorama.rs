@@ -1,7 +1,7 @@
 //! The allocator of the paper: limits one after the other, candidates lowered from the last
 //! activity back.
 //!
-//! Lambert et al., J. Intell. Robot. Syst. 110, 2024, section on the resource allocation algorithm:
+//! Lambert et al., J. Intell. Robot. Syst. 110, 2024, Section 7.2.2:
 //!
 //! 1. Limits are treated in their order. For each, every activity starts at its highest candidate;
 //!    while the sum is above the limit, the last activity is lowered to its highest candidate that
@@ -76,12 +76,14 @@ fn left<const A: usize>(candidate: &Candidate<A>, caps: &[u32; A]) -> bool {
     candidate.cost.iter().zip(caps).all(|(cost, cap)| cost <= cap)
 }
 
-/// A candidate's cost on an axis; nothing on an axis that there is not.
+/// A candidate's cost on an axis.
 fn on<const A: usize>(candidate: &Candidate<A>, axis: usize) -> u32 {
+    debug_assert!(axis < A, "the order of treatment names axes");
     candidate.cost.get(axis).copied().unwrap_or(0)
 }
 
 fn set<const A: usize>(caps: &mut [u32; A], axis: usize, most: u32) {
+    debug_assert!(axis < A, "the order of treatment names axes");
     if let Some(cap) = caps.get_mut(axis) {
         *cap = most;
     }
@@ -129,6 +131,7 @@ impl<const A: usize> Allocator<A> for Panorama<'_, A> {
                 // Rule 1. The paper sorts what is left and searches by dichotomy; one pass finds
                 // the same.
                 let highest = caps.get(axis).copied().unwrap_or(0);
+                debug_assert!(u64::from(highest) <= sum, "an activity is part of the sum");
                 let others = sum.saturating_sub(u64::from(highest));
                 let room = limit.saturating_sub(others);
                 let (mut fitting, mut lowest) = (None, highest);
@@ -158,10 +161,9 @@ impl<const A: usize> Allocator<A> for Panorama<'_, A> {
             // Rule 3: one that is left has the cost that the last axis was lowered to.
             let most = last_axis.and_then(|axis| Some((axis, *caps.get(axis)?)));
             let highest = |c: &Candidate<A>| most.is_none_or(|(axis, most)| on(c, axis) == most);
-            let mut chosen = numbered(candidates.iter());
-            let Some((index, candidate)) = chosen.find(|(_, c)| highest(c) && left(c, caps)) else {
-                continue;
-            };
+            let found = numbered(candidates.iter()).find(|(_, c)| highest(c) && left(c, caps));
+            debug_assert!(found.is_some(), "an activity is lowered to a candidate that is left");
+            let Some((index, candidate)) = found else { continue };
             *choice = index as u16;
             for (sum, &part) in cost.iter_mut().zip(&candidate.cost) {
                 *sum = u64::saturating_add(*sum, u64::from(part));
@@ -169,6 +171,7 @@ impl<const A: usize> Allocator<A> for Panorama<'_, A> {
             quality = quality.saturating_add(u64::from(candidate.quality));
             steps = steps.saturating_add(index as u64).saturating_add(1);
         }
+        debug_assert!(problem.within_limits(&cost), "a plan keeps the limits");
         Ok(Answer::Planned(Planned { cost, quality, bound: None, optimal: false, steps }))
     }
 }

@@ -52,15 +52,16 @@ pub struct Problem<'a, const A: usize> {
 /// assert_eq!(Problem::new(&full, [9, 9], [0, 0]).unwrap_err(), ProblemError::BadOrder);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ProblemError {
     /// This activity has no candidate.
     NoCandidates {
-        /// Its position in the sequence.
+        /// Position of the activity in the sequence.
         activity: usize,
     },
     /// This activity has more candidates than [`Problem::MAX_CANDIDATES`].
     TooManyCandidates {
-        /// Its position in the sequence.
+        /// Position of the activity in the sequence.
         activity: usize,
     },
     /// There are more activities than [`Problem::MAX_ACTIVITIES`].

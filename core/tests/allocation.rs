@@ -1,4 +1,4 @@
-//! What is asked of every allocator: memory that suffices, and answers that cannot contradict
+//! Properties of every allocator: memory that suffices, and answers that cannot contradict
 //! themselves.
 
 use cotama_core::allocation::{Allocator, Answer, MemoryError, Planned, Shortfall};

@@ -34,7 +34,7 @@ fn a_supervisor_stops_the_motors_in_time_and_goes_on_after_a_loss_of_power() {
 }
 
 #[test]
-fn an_arm_grips_what_a_camera_sees_or_says_that_it_did_not() {
+fn an_arm_grips_each_part_a_camera_sees_or_says_that_it_did_not() {
     let belt = system::run();
     assert_eq!(belt.gripped, [(Millis(100), 100), (Millis(500), 90)]);
     assert_eq!(belt.passed, [180, 190]);

@@ -16,7 +16,7 @@ fn lists() -> impl Strategy<Value = Lists> {
 }
 
 #[test]
-fn what_makes_no_problem_is_named() {
+fn the_defect_of_an_invalid_problem_is_named() {
     const ONE: [Candidate<2>; 1] = [Candidate { cost: [1, 1], quality: 0, id: 0 }];
     let refused = |activities: &[&[Candidate<2>]], order| {
         let error = Problem::new(activities, [9, 9], order).unwrap_err();
@@ -68,7 +68,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_plan_costs_what_its_candidates_cost_and_never_less_than_the_least(
+    fn a_plan_costs_the_sum_of_its_candidates_and_never_less_than_the_least(
         lists in lists(), draws in prop::collection::vec(any::<prop::sample::Index>(), 6)
     ) {
         let slices: Vec<_> = lists.iter().map(Vec::as_slice).collect();

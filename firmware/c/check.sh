@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The C API: the header, the library, the example in C against its twin in Rust, the refusals.
+# The C API: the header, the library, the example in C against its twin in Rust, the refusals, the
+# overlaps of memory.
 #
 #   firmware/c/check.sh
 #
@@ -35,6 +36,11 @@ skip() {
     [ "${COTAMA_SKIP_TOOLS:-1}" != 0 ] || failed=$((failed + 1))
 }
 has() { command -v "$1" >/dev/null; }
+
+# The functions that the header names.
+functions() {
+    grep -oE '\bcotama_[a-z_]+\(' include/cotama.h | tr -d '(' | sort -u
+}
 
 # The header is what cbindgen makes of this version of the crate.
 cbindgen=${CBINDGEN:-$(command -v cbindgen || ls ~/.cargo/bin/cbindgen 2>/dev/null)}
@@ -92,20 +98,32 @@ check "the refusals as C11, gcc" gcc -std=c11 "${strict[@]}" -g refusals.c "$lib
     -o "$work/refusals"
 check "every refusal" "$work/refusals"
 said=$(cat "$work/said")
+check "the overlaps as C11, gcc" gcc -std=c11 "${strict[@]}" -g overlaps.c "$library" \
+    -o "$work/overlaps"
+check "every overlap" "$work/overlaps"
+said+="; $(cat "$work/said")"
+# Every function that is given memory is in the table of overlaps.
+all_in_the_table() {
+    diff <(functions | grep -vxE 'cotama_(error_text|version)') \
+        <(sed -nE 's/^CALLS\((\w+),.*/cotama_\1/p' overlaps.c | sort)
+}
+check "  of every function" all_in_the_table
 if has valgrind; then
     memory=(valgrind --quiet --error-exitcode=9 --leak-check=full --track-origins=yes)
     check "the example under valgrind" same "$work/example-gcc" "${memory[@]}"
     check "every refusal under valgrind" "${memory[@]}" "$work/refusals" without-padding
+    check "every overlap under valgrind" "${memory[@]}" "$work/overlaps" without-padding
 else
-    skip "the example and the refusals under valgrind" "no valgrind"
+    skip "the example, the refusals and the overlaps under valgrind" "no valgrind"
 fi
 sane=(-fsanitize=address,undefined -fno-sanitize-recover=all)
-for program in example refusals; do
+for program in example refusals overlaps; do
     check "$program.c with sanitizers" gcc -std=c11 "${strict[@]}" -g "${sane[@]}" $program.c \
         "$library" -o "$work/$program-sane"
 done
 check "the example under sanitizers" same "$work/example-sane"
 check "every refusal under sanitizers" "$work/refusals-sane"
+check "every overlap under sanitizers" "$work/overlaps-sane"
 
 # The program of the documentation is its first block of C.
 awk '/^```c$/ { inside = 1; next } /^```$/ && inside { exit } inside' ../../docs/embed-c.md \
@@ -131,9 +149,6 @@ panic_free() {
             *:no) echo "$it can panic, or lacks something:"; head -3 "$work/why"; return 1 ;;
         esac
     done
-}
-functions() {
-    grep -oE '\bcotama_[a-z_]+\(' include/cotama.h | tr -d '(' | sort -u
 }
 check "no function can panic, all $(functions | wc -l)" panic_free
 

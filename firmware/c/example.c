@@ -99,6 +99,27 @@ static void watchdog_steps(void) {
   print_watchdog(watchdog);
 }
 
+/* A counter of milliseconds of 32 bits begins anew 60 ms after a release: the deadline stays. */
+static void ticks_steps(void) {
+  static const uint32_t COUNTS[] = {UINT32_MAX - 59, UINT32_MAX, 0, 39, UINT32_MAX, 40, 60, 1000};
+  uint64_t memory[COTAMA_WATCHDOG_BYTES / 8];
+  cotama_firing list[ROOM];
+  cotama_firings firings = {list, ROOM, 0};
+  cotama_ticks ticks = {COUNTS[0]};
+  cotama_watchdog *watchdog;
+  must(cotama_watchdog_start(memory, sizeof memory, ticks.latest_ms, &watchdog));
+  must(cotama_watchdog_offer(watchdog, ticks.latest_ms, COTAMA_WATCHDOG_EVENT_RELEASE, NULL, NULL));
+  for (size_t at = 0; at < sizeof COUNTS / sizeof *COUNTS; at++) {
+    uint64_t now, back;
+    must(cotama_ticks_widen(&ticks, COUNTS[at], &now));
+    must(cotama_watchdog_went_back(watchdog, now, &back));
+    printf("count %" PRIu32 " at %" PRIu64 " ms, back by %" PRIu64 " ms\n", COUNTS[at], now, back);
+    must(cotama_watchdog_advance(watchdog, now, NULL, &firings));
+    print_firings(&firings);
+  }
+  print_watchdog(watchdog);
+}
+
 /* The decisional level. */
 
 struct plans {
@@ -338,6 +359,7 @@ int main(void) {
     return EXIT_FAILURE;
   }
   watchdog_steps();
+  ticks_steps();
   level_steps();
   allocation_steps();
   monitor_steps();

@@ -1,5 +1,5 @@
 /* What the library refuses, function by function: null pointers, memory that is short, misaligned,
- * overlapping or of another handle, and numbers that stand for nothing. Whoever is refused finds
+ * overlapping (all of it in overlaps.c) or of another handle, and numbers that stand for nothing. Whoever is refused finds
  * everything as it was. With an argument, bytes between numbers are not compared. Exit status 0
  * when all was refused as it should be. */
 
@@ -37,7 +37,7 @@ static void texts(void) {
     HOLDS(strlen(cotama_error_text(error)) > 0);
   }
   HOLDS(strcmp(cotama_error_text(-1), cotama_error_text(INT32_MAX)) == 0);
-  cotama_text text;
+  cotama_text text, other;
   ANSWERS(OK, cotama_flag_name(COTAMA_FLAG_ROBOT_SILENT, &text));
   HOLDS(text.length == 12 && memcmp(text.bytes, "robot silent", 12) == 0);
   ANSWERS(BAD_NUMBER, cotama_flag_name(COTAMA_FLAG_ROBOT_SILENT + 1, &text));
@@ -47,10 +47,10 @@ static void texts(void) {
   ANSWERS(BAD_NUMBER, cotama_module_name(COTAMA_NONE, &text));
   ANSWERS(BAD_NUMBER, cotama_configuration_name(COTAMA_NONE, &text));
   ANSWERS(BAD_NUMBER, cotama_failure_mode_name(64, &text));
-  ANSWERS(BAD_NUMBER, cotama_level_transition_names(99, 0, &text, &text));
-  ANSWERS(BAD_NUMBER, cotama_level_transition_names(0, 99, &text, &text));
+  ANSWERS(BAD_NUMBER, cotama_level_transition_names(99, 0, &text, &other));
+  ANSWERS(BAD_NUMBER, cotama_level_transition_names(0, 99, &text, &other));
   ANSWERS(NULL_POINTER, cotama_level_transition_names(0, 0, NULL, &text));
-  ANSWERS(BAD_NUMBER, cotama_level_event_names(0, COTAMA_NONE, &text, &text));
+  ANSWERS(BAD_NUMBER, cotama_level_event_names(0, COTAMA_NONE, &text, &other));
   ANSWERS(NULL_POINTER, cotama_level_event_names(0, 0, &text, NULL));
   ANSWERS(BAD_NUMBER, cotama_watchdog_transition_name(99, &text));
   ANSWERS(NULL_POINTER, cotama_watchdog_transition_name(0, NULL));
@@ -159,10 +159,21 @@ static void watchdog(void) {
   ANSWERS(OK, cotama_watchdog_restore(memory, sizeof memory, 0, stored, written, &handle));
 }
 
-/* A plan that uses the level which asks for it. */
+/* A plan that uses the level which asks for it, and starts it anew. */
 static uint8_t uses_the_level(void *context) {
+  const cotama_body body = {0, 1};
+  const cotama_perceived seen = {0, 0, 0, COTAMA_MODULES_ALL};
   cotama_requests requests;
+  bool listens;
+  cotama_level *anew = NULL;
   ANSWERS(BUSY, cotama_level_requests(context, &requests));
+  ANSWERS(BUSY, cotama_level_listens(context, &listens));
+  ANSWERS(BUSY, cotama_level_perceive(context, 0, &seen, NULL, NULL));
+  ANSWERS(BUSY, cotama_level_round(context, 0, 0, &body, NULL, NULL));
+  ANSWERS(BUSY, cotama_level_start(context, COTAMA_LEVEL_BYTES, COTAMA_NONE, &anew));
+  HOLDS(anew == NULL);
+  uint64_t at;
+  ANSWERS(NOT_STARTED, cotama_watchdog_wake_at(context, &at));
   return 1;
 }
 
@@ -211,6 +222,82 @@ static void level(void) {
   ANSWERS(OK, cotama_level_perceive(handle, 100, &seen, &plans, &finding));
   HOLDS(asked > asked_before + 1 && finding.number == 1);
   ANSWERS(OK, cotama_level_round(handle, 100, 0, &body, NULL, NULL));
+  ANSWERS(OK, cotama_level_start(memory, sizeof memory, COTAMA_NONE, &handle));
+}
+
+/* Memory in which nothing was started, whatever its bytes are, is of no handle; and a level, a
+ * watchdog and a monitor may be started there. */
+static void never_started(void) {
+  static uint64_t memory[COTAMA_LEVEL_BYTES / 8];
+  static const unsigned char FILLS[] = {0x00, 0xFF, 0x55, 0xAA, 0xA5, 0xEF, 0x01};
+  for (size_t at = 0; at < sizeof FILLS; at++) {
+    const cotama_body body = {0, 1};
+    const cotama_perceived seen = {0, 0, 0, COTAMA_MODULES_ALL};
+    const uint64_t amounts[] = {1, 1};
+    union {
+      uint64_t number;
+      uint64_t amounts[COTAMA_AXES];
+      int64_t margins[COTAMA_AXES];
+      uint32_t place;
+      uint8_t stored[COTAMA_WATCHDOG_STORED_BYTES];
+      bool listens;
+      cotama_requests requests;
+      cotama_request request;
+    } to;
+    memset(memory, FILLS[at], sizeof memory);
+    cotama_watchdog *watchdog = (cotama_watchdog *)memory;
+    ANSWERS(NOT_STARTED, cotama_watchdog_offer(watchdog, 0, 0, NULL, NULL));
+    ANSWERS(NOT_STARTED, cotama_watchdog_advance(watchdog, 0, NULL, NULL));
+    ANSWERS(NOT_STARTED, cotama_watchdog_wake_at(watchdog, &to.number));
+    ANSWERS(NOT_STARTED, cotama_watchdog_went_back(watchdog, 0, &to.number));
+    ANSWERS(NOT_STARTED, cotama_watchdog_state(watchdog, &to.place));
+    ANSWERS(NOT_STARTED, cotama_watchdog_tokens(watchdog, 0, &to.place));
+    ANSWERS(NOT_STARTED, cotama_watchdog_store(watchdog, to.stored, sizeof to.stored, NULL));
+    cotama_level *level = (cotama_level *)memory;
+    ANSWERS(NOT_STARTED, cotama_level_perceive(level, 0, &seen, NULL, NULL));
+    ANSWERS(NOT_STARTED, cotama_level_listens(level, &to.listens));
+    ANSWERS(NOT_STARTED, cotama_level_round(level, 0, 0, &body, NULL, NULL));
+    ANSWERS(NOT_STARTED, cotama_level_requests(level, &to.requests));
+    cotama_monitor *monitor = (cotama_monitor *)memory;
+    ANSWERS(NOT_STARTED, cotama_monitor_ask_upward(monitor, amounts, amounts));
+    ANSWERS(NOT_STARTED, cotama_monitor_hardware_returned(monitor));
+    ANSWERS(NOT_STARTED, cotama_monitor_planned(monitor, amounts));
+    ANSWERS(NOT_STARTED, cotama_monitor_spend(monitor, amounts));
+    ANSWERS(NOT_STARTED, cotama_monitor_left(monitor, to.amounts));
+    ANSWERS(NOT_STARTED, cotama_monitor_margins(monitor, amounts, to.margins));
+    ANSWERS(NOT_STARTED, cotama_monitor_assess(monitor, amounts, 0, 0, &to.request, NULL));
+    ANSWERS(OK, cotama_level_start(memory, sizeof memory, COTAMA_NONE, &level));
+    ANSWERS(NOT_STARTED, cotama_monitor_hardware_returned(monitor));
+    ANSWERS(NOT_STARTED, cotama_watchdog_wake_at(watchdog, &to.number));
+    memset(memory, FILLS[at], sizeof memory);
+    ANSWERS(OK, cotama_watchdog_start(memory, sizeof memory, 0, &watchdog));
+    ANSWERS(NOT_STARTED, cotama_level_listens((cotama_level *)memory, &to.listens));
+  }
+}
+
+/* A clock that went back, and a counter that begins anew. */
+static void clocks(void) {
+  uint64_t memory[COTAMA_WATCHDOG_BYTES / 8], now = 0, back = 7;
+  cotama_watchdog *handle;
+  ANSWERS(OK, cotama_watchdog_start(memory, sizeof memory, 1000, &handle));
+  ANSWERS(NULL_POINTER, cotama_watchdog_went_back(handle, 0, NULL));
+  ANSWERS(NULL_POINTER, cotama_watchdog_went_back(NULL, 0, &back));
+  HOLDS(back == 7);
+  ANSWERS(OK, cotama_watchdog_went_back(handle, 400, &back));
+  HOLDS(back == 600);
+  ANSWERS(OK, cotama_watchdog_went_back(handle, 1000, &back));
+  HOLDS(back == 0);
+  ANSWERS(OK, cotama_watchdog_went_back(handle, UINT64_MAX, &back));
+  HOLDS(back == 0);
+  cotama_ticks ticks = {UINT32_MAX};
+  ANSWERS(NULL_POINTER, cotama_ticks_widen(NULL, 0, &now));
+  ANSWERS(NULL_POINTER, cotama_ticks_widen(&ticks, 0, NULL));
+  ANSWERS(MISALIGNED, cotama_ticks_widen((cotama_ticks *)((char *)&ticks + 1), 0, &now));
+  HOLDS(now == 0 && ticks.latest_ms == UINT32_MAX);
+  ANSWERS(OK, cotama_ticks_widen(&ticks, 4, &now));
+  HOLDS(now == UINT64_C(0x100000004) && ticks.latest_ms == now);
+  ANSWERS(OK, cotama_ticks_widen(&ticks, UINT32_MAX, &now));
+  HOLDS(now == UINT32_MAX && ticks.latest_ms == UINT64_C(0x100000004));
 }
 
 static void allocation(void) {
@@ -308,6 +395,8 @@ int main(int count, char **arguments) {
   level();
   allocation();
   monitor();
+  never_started();
+  clocks();
   printf("%d calls answered as they should, %d not\n", asked - failed, failed);
   return failed == 0 ? 0 : 1;
 }

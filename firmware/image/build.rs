@@ -1,4 +1,4 @@
-//! Where the linker finds the memory of the board.
+//! Puts the memory layout of the board where the linker finds it.
 
 use std::path::Path;
 use std::{env, fs};

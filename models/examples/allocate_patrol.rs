@@ -3,7 +3,7 @@
 //! The patrol of Lambert et al. 2024 comes with the program; any file of `panorama-mission/1` does.
 
 use cotama_core::allocation::{Allocator, Answer};
-use cotama_core::exact::{Exact, Item, Objective, Stage};
+use cotama_core::exact::{Objective, Workspace};
 use cotama_core::problem::{Candidate, Problem};
 use cotama_models::missions::infeasible::amount;
 use cotama_models::missions::tables::{DURATION, EMPTY, ENERGY, buffer_sizes, remaining};
@@ -28,13 +28,13 @@ pub(crate) fn run(out: &mut impl Write) -> Result<(), Box<dyn Error>> {
     let (most, count) = buffer_sizes(&activities);
     let (mut candidates, mut lists) = (vec![EMPTY; most], vec![&[] as &[Candidate<2>]; count]);
     let first = activities[0].whole(&activities[0].alternatives[0]);
-    let rest = remaining(&activities, first, scenario.available, &mut candidates, &mut lists)?;
+    let rest =
+        remaining(&activities, Some(first), scenario.available, &mut candidates, &mut lists)?;
     let problem = Problem::new(rest, scenario.limits, scenario.order)?;
-    let (mut items, mut stages) = (vec![Item::EMPTY; most], vec![Stage::EMPTY; count]);
     // The most quality; of these plans the one that needs the least energy.
     let wish = [Objective::MostQuality, Objective::Least(ENERGY)];
-    let mut exact = Exact::new(&wish, 100_000, &mut items, &mut stages);
-    let mut plan = vec![0; count];
+    let (mut workspace, mut plan) = (Workspace::new(), vec![0; count]);
+    let mut exact = workspace.exact(&problem, &wish, 100_000, 0);
     let Answer::Planned(planned) = exact.allocate(&problem, &mut plan)? else {
         return Err("no plan is within the limits".into());
     };

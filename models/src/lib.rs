@@ -38,9 +38,13 @@ extern crate self as cotama_models;
 pub mod cotama;
 #[cfg(feature = "std")]
 pub mod fmeca;
+#[cfg(feature = "std")]
+mod json;
 pub mod missions;
 pub mod nets;
 pub mod team;
+#[cfg(feature = "std")]
+pub mod toml_text;
 
 #[cfg(feature = "std")]
 mod names;

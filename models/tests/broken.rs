@@ -158,7 +158,7 @@ fn edits_of_the_patrol() {
                 ("x_mm = 12000", "x_mm = 187_001"),
                 ("units_lost = 1", "units_lost = 3"),
                 ("kind = \"odometry\"", "kind = \"odometer\""),
-                ("delay_ms = 1500", "extra_mm = 1500"),
+                ("delay_ms = 500", "extra_mm = 500"),
             ],
         ),
         (
@@ -179,6 +179,46 @@ fn edits_of_the_patrol() {
     assert!(cases.len() >= 25);
     for (name, edits) in cases {
         refused(name, with(edits));
+    }
+}
+
+/// A key in another unit: the number is that of the unit of files, where it is whole.
+#[test]
+fn a_quantity_in_another_unit_comes_with_its_number_in_the_unit_of_files() {
+    for (line, other, help) in [
+        ("path_length_mm = 187000", "path_length_m = 187", "write `path_length_mm = 187000`"),
+        ("path_length_mm = 187000", "path_length_km = 0.187", "write `path_length_mm = 187000`"),
+        ("path_length_mm = 187000", "path_length_cm = 18700.50", "write `path_length_mm = 187005`"),
+        ("path_length_mm = 187000", "path_length_M = 1.5", "write `path_length_mm = 1500`"),
+        (
+            "path_length_mm = 187000",
+            "path_length_m = 1.2345",
+            "write `path_length_mm`: one m is 1000 mm",
+        ),
+        ("path_length_mm = 187000", "path_length = 187", "write `path_length_mm`, in mm"),
+        ("duration_ms = 600000", "duration_min = 10", "write `duration_ms = 600000`"),
+        ("duration_ms = 600000", "duration_h = 0.25", "write `duration_ms = 900000`"),
+        ("duration_ms = 600000", "duration_s = 1e3", "write `duration_ms`: one s is 1000 ms"),
+        ("energy_mj = 8640000", "energy_Wh = 2.4", "write `energy_mj = 8640000`"),
+        ("energy_mj = 8640000", "energy_kJ = 8.64", "write `energy_mj = 8640000`"),
+        ("energy_mj = 8640000", "energy_j = -1", "write `energy_mj`: one j is 1000 mj"),
+        ("mass_g = ", "mass_kg = 9.5 # ", "write `mass_g = 9500`"),
+    ] {
+        let errors = Mission::parse("patrol.toml", &with(&[(line, other)])).unwrap_err();
+        let first = &errors.diagnostics()[0];
+        let (known, found) = (line.split(' ').next().unwrap(), other.split(' ').next().unwrap());
+        assert!(first.message.starts_with(&format!("unknown key `{found}`")), "{errors}");
+        assert!(first.message.ends_with(&format!("did you mean `{known}`?")), "{errors}");
+        assert_eq!(first.help.as_deref(), Some(help), "{other}");
+        // What the help writes is read.
+        if let Some(written) = help.split('`').nth(1).filter(|it| it.contains('=')) {
+            let rest = if other.ends_with("# ") { " # " } else { "" };
+            let mended = with(&[(line, &format!("{written}{rest}"))]);
+            let errors = Mission::parse("patrol.toml", &mended).map_err(|it| it.to_string());
+            let refused = errors
+                .is_err_and(|it| it.contains("unknown key") || it.contains("must be an integer"));
+            assert!(!refused, "{written}");
+        }
     }
 }
 

@@ -92,7 +92,7 @@ fn the_shipped_supervisors_reach_110346_states_by_1346810_steps() {
         // Too slow without localisation: nothing runs that could be.
         "cs.slow3.mcl_0",
         "cs.slow5.mcl_0",
-        // Who drives without a link has been stopped by the loss of the link.
+        // A driver without a link has been stopped by the loss of the link.
         "cs.hard6",
         "cs.camera2",
     ];

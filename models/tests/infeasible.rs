@@ -8,7 +8,7 @@ use cotama_core::hardware::Equipment;
 use cotama_models::missions::infeasible::{
     Explanation, Reason, Relaxation, explain, explain_within,
 };
-use cotama_models::missions::{Constraint, Mission, embedded};
+use cotama_models::missions::{Constraint, Mission, Unfolded, embedded};
 use proptest::prelude::*;
 
 const ENERGY: usize = 1;
@@ -33,7 +33,7 @@ fn patrol() -> Mission {
 /// Every pair of total duration and energy that no other beats, with this hardware: none where an
 /// activity has no alternative. No search, and no allocator: sums over the activities, one after
 /// the other.
-fn front(mission: &Mission, available: Equipment) -> Vec<[u64; 2]> {
+fn front(mission: &Unfolded, available: Equipment) -> Vec<[u64; 2]> {
     let mut front = vec![[0, 0]];
     for activity in mission.scenario().activities() {
         let mut next = Vec::new();
@@ -52,7 +52,7 @@ fn front(mission: &Mission, available: Equipment) -> Vec<[u64; 2]> {
     front
 }
 
-fn feasible(mission: &Mission, limits: [u64; 2], available: Equipment) -> bool {
+fn feasible(mission: &Unfolded, limits: [u64; 2], available: Equipment) -> bool {
     front(mission, available).iter().any(|cost| cost[0] <= limits[0] && cost[1] <= limits[1])
 }
 
@@ -102,7 +102,7 @@ fn less(relaxation: &Relaxation) -> Vec<Relaxation> {
     }
 }
 
-/// What every complete explanation promises.
+/// Checks the promises of every complete explanation.
 fn check(why: &Explanation, mission: &Mission, limits: [u64; 2], available: Equipment) {
     assert!(why.complete);
     for relaxation in &why.relaxations {
@@ -127,7 +127,7 @@ fn check(why: &Explanation, mission: &Mission, limits: [u64; 2], available: Equi
     let both =
         why.relaxations.iter().filter(|it| matches!(it, Relaxation::RaiseLimits { .. })).count();
     assert_eq!(both > 0, raises == 0 && !front.is_empty());
-    let (mut lifted, mut bare) = (0, mission.clone());
+    let (mut lifted, mut bare) = (0, Unfolded::clone(mission));
     for zone in 0..mission.zones.len() {
         for constraint in [Constraint::Hardware, Constraint::Tio] {
             let relaxation = Relaxation::LiftConstraint { zone, constraint };
@@ -203,7 +203,7 @@ fn check_order(why: &Explanation, mission: &Mission) {
     assert!(why.relaxations.windows(2).all(|pair| key(&pair[0]) <= key(&pair[1])), "{why:?}");
 }
 
-/// What a reason says of a limit is proven, however early the search ended.
+/// Checks that the figures of a reason about a limit are proven, however early the search ended.
 fn check_reason(reason: &Reason, front: &[[u64; 2]], limits: [u64; 2]) {
     let least = |axis: usize, other: u64| {
         front.iter().filter(|cost| cost[1 - axis] <= other).map(|cost| cost[axis]).min()
@@ -291,7 +291,7 @@ fn both_limits_too_low_are_raised_together() {
 }
 
 #[test]
-fn where_limits_compete_two_ways_to_raise_both_are_offered() {
+fn competing_limits_get_two_offers_to_raise_both() {
     let mission = slow_is_cheap();
     let all = mission.available();
     let limits = [400_000, 1_000_000];
@@ -394,7 +394,7 @@ fn lasers_in_glass() -> Mission {
 }
 
 #[test]
-fn where_either_limit_could_be_raised_the_smaller_raise_is_first() {
+fn the_smaller_raise_is_first_if_either_limit_could_be_raised() {
     let mission = slow_is_cheap();
     let all = mission.available();
     let limits = [500_000, 1_700_000];

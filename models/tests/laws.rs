@@ -68,7 +68,8 @@ proptest! {
         let ids = |available: Equipment| {
             let mut candidates = vec![EMPTY; buffer_sizes(&activities).0];
             let mut lists = vec![&[][..]; activities.len()];
-            let lists = remaining(&activities, first, available, &mut candidates, &mut lists)?;
+            let (candidates, lists) = (&mut candidates, &mut lists[..]);
+            let lists = remaining(&activities, Some(first), available, candidates, lists)?;
             let ids = lists.iter().map(|list| list.iter().map(|it| it.id).collect());
             Ok(ids.collect::<Vec<Vec<_>>>())
         };

@@ -58,13 +58,13 @@ fn response_times_of_the_optimal_path_following() {
 }
 
 #[test]
-fn particles_are_what_the_processor_affords() {
+fn particles_are_as_many_as_the_processor_affords() {
     let most = |configuration, load| most_particles(configuration, load, &mut [SPARE; MOST]);
     assert_eq!(
         [Load::Heavy, Load::Busy, Load::Quiet].map(|load| most(FollowingOptimal, load)),
         PARTICLES.map(|it| Ok(Some(it)))
     );
-    // It does not localise with particles.
+    // The odometric configuration does not localise with particles.
     assert_eq!(most(FollowingOdometric, Load::Quiet), Ok(None));
     for (load, particles) in [(Load::Heavy, 100), (Load::Busy, 200), (Load::Quiet, 500)] {
         let is_in_time = |particles| {
@@ -95,7 +95,7 @@ fn every_set_but_the_optimal_one_is_in_time_when_the_computer_is_busy() {
     assert_eq!(TaskSet::new(&reduced).unwrap().schedulable(Overruns::One), Ok(()));
 }
 
-/// What goes wrong up to an instant, and when, in ms.
+/// Returns the troubles up to an instant, with their times in ms.
 fn troubles(executive: &mut Executive<14>, until: Micros) -> Vec<(u64, usize, What)> {
     let needs = executive.tasks().map(|task| task.cost);
     let happenings = std::iter::from_fn(|| executive.simulate(until, &needs));

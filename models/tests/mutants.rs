@@ -3,6 +3,7 @@
 //! makes it again.
 #![cfg(feature = "std")]
 
+use cotama_fuzz::split_mix;
 use cotama_models::missions::tables::{EMPTY, Rest, buffer_sizes, remaining};
 use cotama_models::missions::{Constraint, Mission, embedded};
 
@@ -13,10 +14,7 @@ struct Random(u64);
 
 impl Random {
     fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
+        split_mix(&mut self.0)
     }
 
     fn below(&mut self, end: usize) -> usize {
@@ -69,14 +67,15 @@ fn mutate(text: &mut Vec<u8>, random: &mut Random) {
     }
 }
 
-/// What must hold of every accepted mission.
+/// Checks the properties of every accepted mission.
 fn check(mission: &Mission) {
     let scenario = mission.scenario();
     let activities = scenario.activities();
     let mut candidates = vec![EMPTY; buffer_sizes(&activities).0];
     let mut lists = vec![&[][..]; activities.len()];
     let first = activities[0].whole(&activities[0].alternatives[0]);
-    let lists = remaining(&activities, first, scenario.available(), &mut candidates, &mut lists);
+    let lists =
+        remaining(&activities, Some(first), scenario.available(), &mut candidates, &mut lists);
     assert_eq!(lists.map(<[_]>::len), Ok(activities.len()), "all hardware covers all alternatives");
     assert_eq!(mission.supervisor().is_some(), mission.supervision.is_some());
     let length: u64 = activities.iter().map(|activity| activity.length().0).sum();

@@ -10,7 +10,7 @@ use cotama_models::missions::tables::{
     Alternative, EMPTY, RemainingError, Rest, buffer_sizes, remaining,
 };
 use cotama_models::missions::tables::{delivery, patrol};
-use cotama_models::missions::{Constraint, Mission, embedded, harmless_speed};
+use cotama_models::missions::{Constraint, Mission, Unfolded, embedded, harmless_speed};
 
 fn patrol() -> Mission {
     let patrol = embedded::mission("patrol").unwrap();
@@ -55,7 +55,7 @@ fn the_activities_are_those_of_table_5() {
 
 /// The wide hall without its speed limit, and the robot could do 760 mm/s.
 #[test]
-fn where_no_zone_limits_the_speed_a_harmless_one_does() {
+fn a_harmless_zone_limits_the_speed_if_no_other_does() {
     let hall = "speed_max_mm_s = 560 ";
     let text = embedded::mission("patrol").unwrap().text;
     let speeds = |text: &str| {
@@ -97,7 +97,7 @@ fn qualities_are_optional() {
 }
 
 #[test]
-fn an_alternative_costs_what_a_hand_finds() {
+fn an_alternative_costs_the_same_as_by_hand() {
     let mission = patrol();
     let activities = mission.scenario().activities();
     let a1 = &mission.scenario().activities[0];
@@ -138,8 +138,8 @@ fn every_dropped_combination_names_all_its_constraints() {
     );
 }
 
-/// The glazed zone with lasers in place of sonars: two of the moving options have none, and that the
-/// grid map of `L3` needs two is no help.
+/// The glazed zone with lasers in place of sonars: two of the moving options have none, and that
+/// the grid map of `L3` needs two is no help.
 #[test]
 fn required_hardware_must_be_of_the_moving_option() {
     let text = embedded::mission("patrol").unwrap().text;
@@ -185,7 +185,7 @@ fn constraints_can_be_lifted_and_objectives_left_out() {
     let lifted = mission
         .without_zone_constraint(zone("valve2-approach-sonar"), Constraint::Hardware)
         .unwrap();
-    let alternatives = |mission: &Mission| {
+    let alternatives = |mission: &Unfolded| {
         let activities = mission.scenario().activities.iter();
         activities.map(|it| (it.id.clone(), it.alternatives.len())).collect::<Vec<_>>()
     };
@@ -221,7 +221,8 @@ fn a_remaining_mission_becomes_a_problem_without_heap() {
     let rest = Rest::Travel(Millimetres(123_500 - 118_000));
     let mut candidates = vec![EMPTY; buffer_sizes(&activities[13..]).0];
     let mut lists = [&[][..]; 17];
-    let lists = remaining(&activities[13..], rest, available, &mut candidates, &mut lists).unwrap();
+    let lists =
+        remaining(&activities[13..], Some(rest), available, &mut candidates, &mut lists).unwrap();
     let problem = Problem::new(lists, scenario.limits, scenario.order).unwrap();
     let counts: Vec<_> = problem.activities().iter().map(|candidates| candidates.len()).collect();
     assert_eq!(counts, [6, 6, 4, 6]);
@@ -232,17 +233,17 @@ fn a_remaining_mission_becomes_a_problem_without_heap() {
     let nothing = cotama_core::hardware::Equipment::NONE;
     let mut candidates = [EMPTY; 5];
     let mut lists = [&[][..]; 17];
-    let refused = remaining(&activities[13..], rest, nothing, &mut candidates, &mut lists);
+    let refused = remaining(&activities[13..], Some(rest), nothing, &mut candidates, &mut lists);
     assert_eq!(refused, Err(RemainingError::NoCandidates { activity: 0 }));
     let mut lists = [&[][..]; 17];
-    let refused = remaining(&activities[13..], rest, available, &mut candidates, &mut lists);
+    let refused = remaining(&activities[13..], Some(rest), available, &mut candidates, &mut lists);
     assert_eq!(refused, Err(RemainingError::BufferTooSmall));
     let mut lists = [&[][..]; 3];
-    let refused = remaining(&activities[13..], rest, available, &mut candidates, &mut lists);
+    let refused = remaining(&activities[13..], Some(rest), available, &mut candidates, &mut lists);
     assert_eq!(refused, Err(RemainingError::BufferTooSmall));
     let far = Rest::Travel(Millimetres(u64::MAX));
     let mut lists = [&[][..]; 17];
-    let refused = remaining(&activities[13..], far, available, &mut candidates, &mut lists);
+    let refused = remaining(&activities[13..], Some(far), available, &mut candidates, &mut lists);
     assert_eq!(refused, Err(RemainingError::TooLarge { activity: 0 }));
 }
 

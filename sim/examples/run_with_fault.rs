@@ -36,7 +36,7 @@ pub(crate) fn run(out: &mut impl Write) -> Result<(), Box<dyn Error>> {
     let faults = Faults::parse("faults.toml", FAULTS, &mission)?;
     let faults = FaultChoice::Given { source: "faults.toml".into(), faults };
     let options = Options { faults, ..Options::default() };
-    let (trace, _) = Trace::record(patrol.name, patrol.text, &options)?;
+    let (trace, _) = Trace::record(&mission, &options)?;
 
     for record in &trace.records {
         let (at, x) = (record.t_us() / 1_000_000, record.x_mm() / 1_000);

@@ -77,7 +77,7 @@ fn moment(text: &mut String, before: &str, when: Moment) {
         Moment::Place(x) => writeln!(text, "{before}x_mm = {}", x.0),
         Moment::At(time) => writeln!(text, "{before}t_ms = {}", time.0),
         Moment::During(state, after) => {
-            // Those at rest have no name; no reader takes an empty one.
+            // States at rest have no name; no reader takes an empty one.
             let name = Moment::state_name(state).unwrap_or("");
             writeln!(text, "{before}during = \"{name}\"\n{before}after_ms = {}", after.0)
         }

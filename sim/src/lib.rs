@@ -7,17 +7,20 @@
 //! drawn and [replayed](trace::replay). The same seed gives the same bytes on every machine.
 #![cfg_attr(test, allow(clippy::pedantic, clippy::unwrap_used))]
 
+pub mod body;
 pub mod campaign;
+pub mod canonical;
 pub mod estimate;
 pub mod faults_text;
 pub mod fleet;
 pub mod kernel;
+mod named;
 pub mod options;
 pub mod record;
 pub mod report;
 pub mod run;
 pub mod setup;
-mod solver;
+pub mod solver;
 pub mod streams;
 pub mod supervised;
 pub mod trace;

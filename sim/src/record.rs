@@ -1,4 +1,4 @@
-//! Where a run tells what happens.
+//! The recorder of a run's events.
 
 use crate::trace::Record;
 

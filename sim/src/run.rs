@@ -1,4 +1,4 @@
-//! What a run comes to.
+//! The result of a run.
 
 use cotama_core::units::Millis;
 use cotama_models::cotama::{FailureMode, Health, Module, Resource};
@@ -13,7 +13,7 @@ pub const MAX_CHECKS: u64 = 1_000_000;
 /// A supervised run ends after this time, whatever it does.
 pub const LONGEST: Millis = Millis(3_600_000);
 
-/// What a run comes to: a few numbers and its plans.
+/// The result of a run: a few numbers and its plans.
 ///
 /// ```
 /// use cotama_models::missions::{Mission, embedded};
@@ -22,7 +22,7 @@ pub const LONGEST: Millis = Millis(3_600_000);
 /// let patrol = embedded::mission("patrol").unwrap();
 /// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
 /// let run = Simulation::new(&mission, &Options::default()).unwrap().run(0).unwrap();
-/// assert_eq!((run.outcome, run.margins), (Outcome::Completed, [53_699, 26_464]));
+/// assert_eq!((run.outcome, run.margins), (Outcome::Completed, [51_699, 26_682]));
 /// let causes: Vec<_> = run.plans.iter().map(|it| it.cause.text(&mission)).collect();
 /// assert_eq!(causes[..2], ["start", "energy margin below zero"]);
 /// ```
@@ -40,7 +40,7 @@ pub struct Run {
     pub operator_requests: u64,
     /// Limits less used at the end (ms, mJ); nothing is planned any more.
     pub margins: [i64; 2],
-    /// What was used (ms, mJ), rounded half up.
+    /// Amounts used (ms, mJ), rounded half up.
     pub used: [u64; 2],
     /// The time used, in µs, exact.
     pub time_us: u64,
@@ -48,7 +48,7 @@ pub struct Run {
     pub energy_pj: u128,
     /// How far the robot came, in whole mm of path.
     pub x_mm: u64,
-    /// What happened to the robot.
+    /// Counts of the events.
     pub events: EventCounts,
     /// How often the margins were checked.
     pub checks: u64,
@@ -66,14 +66,16 @@ pub struct Run {
 pub enum Outcome {
     /// All activities are done, within the limits.
     Completed,
-    /// The robot stopped safely: no plan was left, or the supervisors ended the mission.
+    /// The robot stopped safely, within its limits: no plan was left, or the supervisors ended the
+    /// mission.
     Safe,
-    /// All activities are done, but a limit is exceeded.
+    /// A limit is exceeded, whatever else: all activities may be done, or the robot stands. A
+    /// supervised run also fails when it is not over after [`LONGEST`].
     Failed,
 }
 
 impl Outcome {
-    /// Its name in traces and answers: `completed`, `safe`, `failed`.
+    /// Returns the name in traces and answers: `completed`, `safe`, `failed`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Completed => "completed",
@@ -97,7 +99,7 @@ pub struct EventCounts {
 }
 
 impl EventCounts {
-    /// All of them.
+    /// Returns the number of all events.
     pub const fn total(&self) -> u64 {
         self.obstacles + self.faults + self.repairs + self.odometry
     }
@@ -106,11 +108,11 @@ impl EventCounts {
 /// A plan that came into force.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlanMade {
-    /// Why.
+    /// The cause of the plan.
     pub cause: PlanCause,
     /// When, in µs.
     pub t_us: u64,
-    /// Where, in whole mm of path.
+    /// Position, in whole mm of path.
     pub x_mm: u64,
     /// The index of its first activity.
     pub first_activity: usize,
@@ -120,7 +122,7 @@ pub struct PlanMade {
     pub before: Option<[i64; 2]>,
     /// The margins of this plan (ms, mJ).
     pub after: [i64; 2],
-    /// What was used so far (ms, mJ).
+    /// Amounts used so far (ms, mJ).
     pub used: [u64; 2],
     /// The planned cost of what is left of its first activity (ms, mJ); the others are whole.
     pub first_cost: [u32; 2],
@@ -154,13 +156,13 @@ pub enum PlanCause {
     },
     /// A part of a supervised robot is known to be broken.
     Lost(Part),
-    /// It is known to be sound again.
+    /// The part is known to be sound again.
     Back(Part),
     /// The margins leave room for a better plan.
     Room,
 }
 
-/// What broke: a thing, or else a module.
+/// A broken part: a thing, or else a module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Part {
     /// A thing that modules stand on, as the sonar arrays.
@@ -170,15 +172,16 @@ pub enum Part {
 }
 
 impl Part {
-    /// What is broken first of all; none when nothing is.
+    /// Returns the first broken part; `None` when nothing is broken.
     pub fn of(broken: Health) -> Option<Self> {
         let resource = broken.lost.first().map(Self::Resource);
         resource.or_else(|| broken.faulty.first().map(Self::Module))
     }
 
-    /// Its name: `sonar arrays`, `MCL`.
+    /// Returns the name: `sonar arrays`, `MCL`. A link may be lost without its card.
     pub const fn name(self) -> &'static str {
         match self {
+            Self::Resource(Resource::WifiCard) => "WiFi link",
             Self::Resource(it) => it.name(),
             Self::Module(it) => it.name(),
         }
@@ -215,7 +218,7 @@ impl PlanCause {
 pub enum Reason {
     /// No plan was found for what is left.
     NoPlan(NoPlan),
-    /// All is done, but a limit is exceeded.
+    /// A limit is exceeded.
     LimitExceeded {
         /// The axis.
         axis: usize,
@@ -254,7 +257,7 @@ pub enum NoPlan {
     Limit {
         /// The axis.
         axis: usize,
-        /// What is missing on it, in ms or mJ.
+        /// Amount missing on the axis, in ms or mJ.
         short: u64,
     },
     /// No plan is within the limits, and the search was cut short before it was known which of them

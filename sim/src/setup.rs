@@ -6,9 +6,9 @@ use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{Monitor, MonitorError};
 use cotama_core::problem::Candidate;
 use cotama_core::units::Millis;
-use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Event, EventKind, Faults};
 use cotama_models::missions::tables::Activity;
+use cotama_models::missions::{Mission, Remaining};
 use std::borrow::Cow;
 
 /// Millimetres in units of position, which are nm: a speed in mm/s times a time in µs.
@@ -34,11 +34,13 @@ pub struct Simulation<'m> {
     /// For each activity all its alternatives as candidates of the whole activity; the id is the
     /// index.
     pub(crate) whole: Vec<Vec<Candidate<2>>>,
+    /// The same as the plan of the start needs them: every run begins with it.
+    pub(crate) start: Option<Remaining>,
     pub(crate) planner: Planner,
     pub(crate) monitor: Monitor<2>,
     pub(crate) period_us: u64,
-    /// Where the real power changes, in nm, and from there on its parts per thousand of the
-    /// modelled one. *Invariant:* sorted, strictly rising, the first one at 0.
+    /// Places in nm from which the real power is this many parts per thousand of the modelled one.
+    /// *Invariant:* sorted, strictly rising, the first one at 0.
     pub(crate) segments: Vec<(u64, u64)>,
     pub(crate) faults: Faults,
     events: Vec<Pending>,
@@ -46,7 +48,7 @@ pub struct Simulation<'m> {
     pub(crate) adapts: bool,
 }
 
-/// What a run meets on its way.
+/// The events that a run meets on its path.
 #[derive(Clone, Debug)]
 pub(crate) struct Course<'s> {
     pub(crate) events: Cow<'s, [Pending]>,
@@ -81,7 +83,7 @@ pub enum SetupError {
     ZeroPeriod,
     /// The random events would take more than [`MAX_DRAWS`] draws.
     TooManyDraws {
-        /// So many.
+        /// Number of draws.
         draws: u64,
     },
     /// The limits cannot be watched.
@@ -142,13 +144,14 @@ impl<'m> Simulation<'m> {
         let mut simulation = Self {
             mission,
             whole: activities.iter().map(whole).collect(),
+            start: Remaining::new(&activities, None, scenario.available).ok(),
             activities,
-            planner: options.planner,
+            planner: options.planner.unwrap_or_else(|| Planner::of(mission)),
             monitor,
             period_us: period_ms.saturating_mul(1000),
             segments: segments(&faults, mission),
             events: Vec::new(),
-            adapts: true,
+            adapts: !options.rigid,
             faults,
         };
         let scripted = simulation.faults.events.iter();
@@ -157,13 +160,6 @@ impl<'m> Simulation<'m> {
         simulation.events = scripted.map(|event| pending(event.x.0, event.kind)).collect();
         simulation.events.sort_by_key(|event| event.x_nm);
         Ok(simulation)
-    }
-
-    /// Keeps the plan of the start whatever becomes of the margins; hardware that fails and that it
-    /// needs ends the mission. What adaptation is compared with.
-    #[must_use]
-    pub fn without_adaptation(self) -> Self {
-        Self { adapts: false, ..self }
     }
 
     /// The mission.
@@ -181,7 +177,8 @@ impl<'m> Simulation<'m> {
         self.mission.scenario().available
     }
 
-    /// What a run with other scripted faults meets: its events, and the real power along its path.
+    /// Returns the course of a run with other scripted faults: its events, and the real power along
+    /// its path.
     ///
     /// # Errors
     /// [`SetupError::ForeignFaults`] for faults of another mission.

@@ -141,9 +141,9 @@ mod tests {
         assert!((0..1000).all(|_| stream.below(wide) < wide));
     }
 
-    /// Of a bound of 2^63 + 1, nearly half of all products are drawn again.
+    /// Nearly half of all products are drawn again for a bound of 2^63 + 1.
     #[test]
-    fn what_would_be_more_likely_is_drawn_again() {
+    fn products_that_would_be_more_likely_are_drawn_again() {
         let bound = (1_u64 << 63) + 1;
         let threshold = (1_u64 << 63) - 1; // 2^64 modulo the bound
         let (mut stream, mut bits) =

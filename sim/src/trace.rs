@@ -1,4 +1,4 @@
-//! What a run leaves behind: JSON lines, `cotama-trace/1`, enough to draw it and to run it again.
+//! The trace of a run: JSON lines, `cotama-trace/1`, enough to draw it and to run it again.
 //!
 //! The first line is the [`Header`], every other line one [`Record`], the last one its [`End`].
 //! Every record says when (`t_us`, µs since the start) and where (`x_mm`, whole mm of path that are
@@ -7,41 +7,57 @@
 use crate::run::Outcome;
 use serde::{Deserialize, Serialize};
 
+mod compare;
 mod read;
 mod replay;
 pub mod supervised;
 
-pub use read::{Limits, TraceError};
+pub use compare::Difference;
+pub use read::{Head, Limits, Line, TraceError, TraceOf};
 pub use replay::{RecordError, Replayed, replay};
 
 /// The schema that a trace names in its header.
 pub const SCHEMA: &str = "cotama-trace/1";
 
-/// A whole trace.
+/// The trace of a mission.
 ///
 /// ```
-/// use cotama_models::missions::embedded;
+/// use cotama_models::missions::{Mission, embedded};
 /// use cotama_sim::options::Options;
 /// use cotama_sim::trace::{Record, Trace};
 /// let patrol = embedded::mission("patrol").unwrap();
-/// let (trace, _) = Trace::record("patrol", patrol.text, &Options::default()).unwrap();
-/// assert_eq!((trace.header.schema.as_str(), trace.canonical), ("cotama-trace/1", true));
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let (trace, _) = Trace::record(&mission, &Options::default()).unwrap();
+/// assert_eq!((trace.header.schema.as_str(), &trace.foreign), ("cotama-trace/1", &None));
 /// let plans = trace.records.iter().filter(|it| matches!(it, Record::Plan(_))).count();
 /// assert_eq!(plans, 4);
 /// assert!(matches!(trace.records.last(), Some(Record::End(_))));
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Trace {
-    /// What was run.
-    pub header: Header,
-    /// What happened, in the order of time; the last one is [`Record::End`].
-    pub records: Vec<Record>,
-    /// Whether it is written as this program writes traces, byte for byte: true for every trace
-    /// that was recorded, false for one read from a file with other spacing or fields unknown here.
-    pub canonical: bool,
+pub type Trace = TraceOf<Header, Record>;
+
+impl Head for Header {
+    const SCHEMA: &'static str = SCHEMA;
+
+    fn schema(&self) -> &str {
+        &self.schema
+    }
+
+    fn by_version_of(self, other: &Self) -> Self {
+        Self { version: other.version.clone(), ..self }
+    }
 }
 
-/// What was run: enough to run it again.
+impl Line for Record {
+    fn time(&self) -> u64 {
+        self.t_us()
+    }
+
+    fn is_end(&self) -> bool {
+        matches!(self, Self::End(_))
+    }
+}
+
+/// The settings of a run: enough to run it again.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Header {
     /// [`SCHEMA`].
@@ -65,12 +81,15 @@ pub struct Header {
 pub struct RunOptions {
     /// The seed of all random numbers.
     pub seed: u64,
-    /// What went wrong.
+    /// The faults.
     pub faults: RunFaults,
     /// How often margins were checked, in ms.
     pub monitor_period_ms: u64,
-    /// Who planned.
+    /// The planner.
     pub allocator: crate::options::Planner,
+    /// Whether the plan of the start was kept, whatever became of the margins.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub rigid: bool,
     /// When better plans were looked for; never if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub upward: Option<RunUpward>,
@@ -80,11 +99,11 @@ pub struct RunOptions {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "mode", rename_all = "snake_case")]
 pub enum RunFaults {
-    /// Those of the mission's own `[run]`.
+    /// The faults of the mission's own `[run]`.
     Script,
-    /// None, and power as modelled.
+    /// No faults, and power as modelled.
     None,
-    /// Those of a `panorama-faults/1` text.
+    /// The faults of a `panorama-faults/1` text.
     File {
         /// The name of its source.
         source: String,
@@ -98,7 +117,7 @@ pub enum RunFaults {
 pub struct RunUpward {
     /// How much a margin must have grown since the last plan; zero: not on this axis.
     pub growth: Used,
-    /// What a better plan leaves unspent.
+    /// Amounts that a better plan leaves unspent.
     pub reserve: Used,
 }
 
@@ -160,7 +179,7 @@ pub enum Record {
     Told(supervised::Told),
     /// Something failed that supervisors deal with.
     Failure(supervised::Failure),
-    /// It was noticed, and taken for something.
+    /// A failure was noticed and diagnosed.
     Diagnosis(supervised::Diagnosis),
     /// The contextual supervisor decided on it.
     Decision(supervised::Decision),
@@ -193,7 +212,7 @@ impl Record {
         }
     }
 
-    /// Where it was written, in whole mm of path.
+    /// Returns the position at the time of writing, in whole mm of path.
     pub fn x_mm(&self) -> u64 {
         match self {
             Self::Plan(it) => it.x_mm,
@@ -219,7 +238,7 @@ impl Record {
 pub struct Plan {
     /// When, in µs.
     pub t_us: u64,
-    /// Where, in mm.
+    /// Position, in mm.
     pub x_mm: u64,
     /// Why: `start`, `energy margin below zero`, `duration margin below zero`, `one laser lost` and
     /// the like, `room for a better plan`.
@@ -231,7 +250,7 @@ pub struct Plan {
     pub before: Option<Margins>,
     /// The margins of this plan: limits less used less the sum of its rows.
     pub after: Margins,
-    /// What was used so far.
+    /// Amounts used so far.
     pub used: Used,
     /// One row an activity, from the first on.
     pub plan: Vec<PlanRow>,
@@ -239,7 +258,7 @@ pub struct Plan {
     pub steps: u64,
     /// The allocator that found the plan: `panorama` or `exact`.
     pub allocator: String,
-    /// What would be left at each safe end if the robot went there the most expensive way.
+    /// Amounts that would be left at each safe end if the robot went there the most expensive way.
     pub return_margin: ReturnMargin,
 }
 
@@ -274,9 +293,9 @@ pub struct ReturnMargin {
 pub struct Activity {
     /// When, in µs.
     pub t_us: u64,
-    /// Where, in mm.
+    /// Position, in mm.
     pub x_mm: u64,
-    /// Its id.
+    /// Id of the activity.
     pub activity: String,
     /// The implementation alternative, as `M5 L2`.
     pub choice: String,
@@ -285,15 +304,15 @@ pub struct Activity {
 }
 
 /// The margins were checked: every period, after every event, at every new activity. Another sample
-/// follows every plan, with the margins and the power under it. A supervised run does not check its
-/// margins; there a sample is taken every period, and speed and power are those of the robot.
+/// follows every plan, with the margins and the power under it. Supervisors check the margins every
+/// second; there a sample is taken every period, and speed and power are those of the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sample {
     /// When, in µs.
     pub t_us: u64,
-    /// Where, in mm.
+    /// Position, in mm.
     pub x_mm: u64,
-    /// What was used so far, rounded half up.
+    /// Amounts used so far, rounded half up.
     pub used: Used,
     /// The margins under the plan in force.
     pub margins: Margins,
@@ -301,7 +320,7 @@ pub struct Sample {
     pub planned_power_mw: u64,
     /// The real power, rounded half up, in mW.
     pub real_power_mw: u64,
-    /// The speed, in mm/s; zero when the activity does not travel.
+    /// The speed, in mm/s; zero when the robot stands or waits.
     pub speed_mm_s: u64,
 }
 
@@ -310,9 +329,9 @@ pub struct Sample {
 pub struct Event {
     /// When it was over, in µs.
     pub t_us: u64,
-    /// Where, in mm.
+    /// Position, in mm.
     pub x_mm: u64,
-    /// What.
+    /// The event.
     pub event: Occurrence,
     /// The name of the random event that it comes from; none for those with a given place.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -321,7 +340,7 @@ pub struct Event {
     pub lost_us: u64,
 }
 
-/// What happened.
+/// An event of the robot.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Occurrence {
@@ -332,7 +351,7 @@ pub enum Occurrence {
     },
     /// Hardware failed.
     Fault {
-        /// Its name.
+        /// Name of the hardware.
         hardware: String,
         /// The units that were lost: no more than there were.
         units_lost: u8,
@@ -341,7 +360,7 @@ pub enum Occurrence {
     },
     /// Hardware works again.
     Repair {
-        /// Its name.
+        /// Name of the hardware.
         hardware: String,
         /// The units that came back: no more than were missing.
         units_back: u8,
@@ -360,9 +379,9 @@ pub enum Occurrence {
 pub struct Request {
     /// When, in µs.
     pub t_us: u64,
-    /// Where, in mm.
+    /// Position, in mm.
     pub x_mm: u64,
-    /// What the failure was taken for.
+    /// Diagnosis of the failure.
     pub cause: String,
     /// Why he is asked.
     pub reason: String,
@@ -375,7 +394,7 @@ pub struct Request {
 pub struct Abort {
     /// When, in µs.
     pub t_us: u64,
-    /// Where, in mm.
+    /// Position, in mm.
     pub x_mm: u64,
     /// Why a plan was needed, worded as in [`Plan::cause`].
     pub cause: String,
@@ -388,16 +407,16 @@ pub struct Abort {
 pub struct End {
     /// When, in µs.
     pub t_us: u64,
-    /// Where, in mm.
+    /// Position, in mm.
     pub x_mm: u64,
-    /// How.
+    /// The outcome.
     pub outcome: Outcome,
     /// Why it is not completed; none if it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// Limits less used: nothing is planned any more.
     pub margins: Margins,
-    /// What was used.
+    /// Amounts used.
     pub used: Used,
     /// How many plans there were after the first.
     pub replans: u64,

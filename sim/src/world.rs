@@ -9,7 +9,8 @@
 //!
 //! *Order.* On arrival at a place, first what happens there, with a check after each event, then
 //! the next activity, with a check as it starts. An event on the border of two activities happens
-//! at the end of the one that arrives. Hindrances are atomic: no check falls inside them.
+//! at the end of the one that arrives. While the robot is held up it is checked in the periods of
+//! the monitor, as on its way.
 
 use crate::kernel::Queue;
 use crate::record::{Recorder, Silent};
@@ -20,23 +21,26 @@ use cotama_core::hardware::Equipment;
 use cotama_core::monitor::Monitor;
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::tables::Alternative;
+use hindrance::Hindrance;
 use std::borrow::Cow;
 
 mod checks;
 mod happenings;
+mod hindrance;
 mod planning;
 mod records;
 
-/// What comes next.
+/// The next event.
 #[derive(Clone, Copy, Debug)]
 enum Next {
-    /// The end of the leg: an event, a border, or the end of the activity.
+    /// The end of the leg: an event, a border, or the end of the activity; of a hindrance, if the
+    /// robot is held up.
     Arrival,
     /// A check of the margins.
     Check,
 }
 
-/// What an activity does from here on: its alternative under the real power of this place.
+/// The pace of an activity from here on: its alternative under the real power of this place.
 #[derive(Clone, Copy, Debug)]
 struct Leg {
     alternative: Alternative,
@@ -69,9 +73,9 @@ pub struct World<'s> {
     time_us: u64,
     energy_pj: u128,
     x_nm: u64,
-    /// Where the current leg ends, in nm, if it travels.
+    /// End of the current leg, in nm, if it travels.
     leg_end_nm: u64,
-    /// What is left of the current activity, if it does not travel, in µs.
+    /// Rest of the current activity, if it does not travel, in µs.
     standing_us: u64,
     /// Whether the current activity has not begun to take time; what does not travel is then
     /// replanned whole.
@@ -80,6 +84,10 @@ pub struct World<'s> {
     activity: usize,
     done: bool,
     leg: Leg,
+    /// The hindrance that holds the robot up.
+    hindrance: Option<Hindrance>,
+    /// Whether the first activity has begun: what happens at the start comes before it.
+    begun: bool,
     segment: usize,
     monitor: Monitor<2>,
     available: Equipment,
@@ -176,6 +184,8 @@ impl<'s> World<'s> {
             activity: 0,
             done: false,
             leg: Leg { alternative: nothing, real_uw: 0 },
+            hindrance: None,
+            begun: false,
             segment: 0,
             monitor: simulation.monitor,
             available: simulation.all_hardware(),
@@ -192,10 +202,7 @@ impl<'s> World<'s> {
         world.find_segment();
         world.plan(PlanCause::Start, None, recorder)?;
         world.set_leg();
-        world.happen(recorder);
-        if world.ended.is_none() {
-            world.begin(recorder);
-        }
+        world.proceed(recorder);
         Ok(world)
     }
 
@@ -215,7 +222,11 @@ impl<'s> World<'s> {
                 }
                 Some((time_us, Next::Arrival)) => {
                     self.advance(time_us);
-                    self.arrive(recorder);
+                    if self.hindrance.is_some() {
+                        self.freed(recorder);
+                    } else {
+                        self.arrive(recorder);
+                    }
                 }
                 // An arrival always waits; without one there is nothing left to do.
                 None => self.finish(),
@@ -255,9 +266,13 @@ impl<'s> World<'s> {
         if passed == 0 {
             return;
         }
-        self.fresh = false;
         self.time_us = time_us;
-        self.take(passed, self.leg.real_uw);
+        self.take(passed, self.real_now_uw());
+        if self.hindrance.is_some() {
+            self.pass_hindered(passed);
+            return;
+        }
+        self.fresh = false;
         if self.travels() {
             let way = self.leg.alternative.speed.0.saturating_mul(passed);
             self.x_nm = self.x_nm.saturating_add(way).min(self.leg_end_nm);
@@ -282,11 +297,21 @@ impl<'s> World<'s> {
     fn arrive<R: Recorder>(&mut self, recorder: &mut R) {
         self.done = if self.travels() { self.x_nm >= self.end_nm() } else { self.standing_us == 0 };
         self.find_segment();
+        self.proceed(recorder);
+    }
+
+    /// Lets the events of this place happen, and then lets the robot go on.
+    fn proceed<R: Recorder>(&mut self, recorder: &mut R) {
         self.happen(recorder);
         if self.ended.is_some() {
             return;
         }
-        if !self.done {
+        if self.hindrance.is_some() {
+            self.schedule();
+        } else if !self.begun {
+            self.begun = true;
+            self.begin(recorder);
+        } else if !self.done {
             self.set_leg();
             self.schedule();
         } else if self.activity + 1 < self.choice.len() {
@@ -340,7 +365,9 @@ impl<'s> World<'s> {
     /// Plans the end of the leg and the next check.
     fn schedule(&mut self) {
         self.queue.clear();
-        let left_us = if self.travels() {
+        let left_us = if let Some(left_us) = self.hindered_for() {
+            left_us
+        } else if self.travels() {
             let mut end = self.end_nm();
             if let Some(event) = self.events.get(self.next_event) {
                 end = end.min(event.x_nm);
@@ -370,15 +397,18 @@ impl<'s> World<'s> {
     /// All activities are done.
     fn finish(&mut self) {
         self.account();
+        self.ended = Some(match self.exceeded() {
+            Some(reason) => (Outcome::Failed, Some(reason)),
+            None => (Outcome::Completed, None),
+        });
+    }
+
+    /// The limit that what was used exceeds, the first in their order.
+    fn exceeded(&self) -> Option<Reason> {
         let margins = self.margins(&[0; 2]);
         let order = self.simulation.mission.scenario().order;
-        self.ended = match order.into_iter().find(|&axis| margins[axis] < 0) {
-            Some(axis) => {
-                let by = margins[axis].unsigned_abs();
-                Some((Outcome::Failed, Some(Reason::LimitExceeded { axis, by })))
-            }
-            None => Some((Outcome::Completed, None)),
-        };
+        let axis = order.into_iter().find(|&axis| margins[axis] < 0)?;
+        Some(Reason::LimitExceeded { axis, by: margins[axis].unsigned_abs() })
     }
 
     fn result(&mut self, outcome: Outcome, reason: Option<Reason>) -> Run {

@@ -1,4 +1,4 @@
-//! What campaigns find: defects planted in supervisors, observers, planning and the robot.
+//! Findings of campaigns: defects planted in supervisors, observers, planning and the robot.
 //!
 //! `cargo test --release -p cotama-sim --test campaigns -- --ignored --nocapture` measures how many
 //! runs each strategy takes; `UPDATE_GOLDEN=1` writes the table anew.
@@ -14,8 +14,12 @@ mod measured;
 mod own;
 #[path = "campaigns/policies.rs"]
 mod policies;
+#[path = "campaigns/returns.rs"]
+mod returns;
 #[path = "campaigns/statistics.rs"]
 mod statistics;
+#[path = "campaigns/teams.rs"]
+mod teams;
 
 use cotama_models::missions::Mission;
 

@@ -1,5 +1,5 @@
-//! The patrol of Lambert et al. 2024 as it was driven: Tables 6 and 7, in their order, with their
-//! causes.
+//! The patrol of Lambert et al. 2024: the first plan is that of Table 6 (7.2.3), and the replans
+//! are those of Table 7 (7.3.3), each at its place and for its cause.
 #![allow(clippy::unwrap_used)]
 
 mod common;
@@ -11,15 +11,16 @@ use cotama_models::missions::faults::EventKind;
 use cotama_sim::options::{FaultChoice, Options};
 use cotama_sim::run::{Outcome, Run};
 
-/// Margins after the start move with the monitor period and the order of rounding by up to so much.
-const TOLERANCE_MS: u64 = 500;
+/// Margins of energy after the start move with the monitor period and the order of rounding by up
+/// to so much.
 const TOLERANCE_MJ: u64 = 5000;
 
-/// The references are of an older script, whose first replan had one cause. Ours, with three, is
-/// off by 4735 mJ at most at the replans, and by 420 ms and 4884 mJ at the end.
-fn near(found: [i64; 2], reference: [i64; 2]) -> bool {
-    found[0].abs_diff(reference[0]) <= TOLERANCE_MS
-        && found[1].abs_diff(reference[1]) <= TOLERANCE_MJ
+/// The references are of an older script, whose first replan had one cause and whose robot drew
+/// the power of driving while it waited. Ours, with three, is off by 4360 mJ at most at the replans
+/// and by 4666 mJ at the end, but takes 2.4 s more: at the power of rest it waits longer for the
+/// same energy.
+fn near(found: i64, reference: i64) -> bool {
+    found.abs_diff(reference) <= TOLERANCE_MJ
 }
 
 const RAS: [(&str, &str); 4] = [
@@ -82,15 +83,12 @@ fn the_margins_are_near_the_references() {
     for (plan, before, after) in [(1, -85_982, 115_400), (2, 240_164, 63_335), (3, -11_690, 25_626)]
     {
         let found = energy(plan);
-        assert!(
-            near([0, found.0], [0, before]) && near([0, found.1], [0, after]),
-            "RAS{plan}: {found:?}"
-        );
+        assert!(near(found.0, before) && near(found.1, after), "RAS{plan}: {found:?}");
     }
-    assert!(near(run.margins, [54_119, 31_348]), "{:?}", run.margins);
+    assert!(near(run.margins[1], 31_348), "{:?}", run.margins);
 }
 
-/// Where the paper has the first replan: 64 m, in A8, which ends at 63.5 m.
+/// The place of the first replan in the paper: 64 m, in A8, which ends at 63.5 m.
 const FIRST_REPLAN: Millimetres = Millimetres(63_400);
 
 /// The patrol under only some of the three causes that act before the first replan.
@@ -107,21 +105,22 @@ fn caused_by(mission: &Mission, [error, odometry, obstacles]: [bool; 3]) -> Run 
     run(mission, &Options { faults, ..Options::default() })
 }
 
-/// The paper: "due to odometry drift, obstacle avoidance and consumption model errors". Each costs
-/// energy, and only all three together give the printed plan: less hindered, only A17 changes.
+/// The paper (7.3.3) names three: an odometer that drifts, obstacles on the way, and a model of the
+/// power that errs. Each costs energy, and only all three together give the printed plan: less
+/// hindered, only A17 changes.
 #[test]
 fn the_first_replan_has_the_three_causes_of_the_paper() {
     const ONLY_A17: &str = "M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 L2,M1 L1";
     let mission = patrol();
     // The power error of the hall, odometry, obstacles; margin before (mJ) and plan, if replanned.
     let expected = [
-        ([true, true, true], Some((-81_247, RAS[1].1))),
-        ([false, true, true], Some((-64_293, ONLY_A17))),
-        ([true, false, true], Some((-58_911, ONLY_A17))),
-        ([false, false, true], Some((-42_068, ONLY_A17))),
-        ([true, true, false], None),
+        ([true, true, true], Some((-81_626, RAS[1].1))),
+        ([false, true, true], Some((-65_113, ONLY_A17))),
+        ([true, true, false], Some((-51_095, ONLY_A17))),
+        ([false, true, false], Some((-34_733, ONLY_A17))),
+        ([true, false, true], None),
+        ([false, false, true], None),
         ([true, false, false], None),
-        ([false, true, false], None),
         ([false, false, false], None),
     ];
     for (causes, first_replan) in expected {
@@ -139,9 +138,9 @@ fn the_first_replan_has_the_three_causes_of_the_paper() {
 #[test]
 fn the_run_is_fixed_to_the_picojoule() {
     let run = run(&patrol(), &Options::default());
-    assert_eq!((run.time_us, run.energy_pj), (546_301_197, 8_613_536_443_753_625));
-    assert_eq!(run.margins, [53_699, 26_464]);
-    assert_eq!((run.checks, run.events.total(), run.events.faults), (557, 11, 1));
+    assert_eq!((run.time_us, run.energy_pj), (548_301_197, 8_613_317_997_215_125));
+    assert_eq!(run.margins, [51_699, 26_682]);
+    assert_eq!((run.checks, run.events.total(), run.events.faults), (586, 11, 1));
 }
 
 /// The paper: the duration margin is always positive.

@@ -1,4 +1,4 @@
-//! What happens to a robot on its mission, told one trouble at a time.
+//! Stories of a robot on its mission, one trouble at a time.
 #![allow(clippy::unwrap_used)]
 
 mod common;
@@ -79,8 +79,9 @@ fn an_obstacle_that_never_goes_away_is_a_safe_stop() {
     let Some(Reason::NoPlan(NoPlan::Limit { axis: 0, short })) = end.reason else {
         panic!("{:?}", end.reason)
     };
-    assert!(short > 300_000, "the rest of the way takes longer than {short} ms");
-    assert!(end.margins[0] < -900_000_000);
+    // The robot gives up in the first period in which no plan is left, within its limits.
+    assert!(short <= 1_000, "{short} ms are missing, of a period");
+    assert!(end.margins.iter().all(|&it| it > 0), "{:?}", end.margins);
 }
 
 #[test]
@@ -288,8 +289,10 @@ fn a_complete_search_drives_too() {
         Planner::Exact { aim: Aim::Quality, steps: 100_000 },
         Planner::Exact { aim: Aim::MinEnergy, steps: 100_000 },
     ] {
-        let end =
-            run(&mission, &Options { planner, faults: FaultChoice::None, ..Options::default() });
+        let end = run(
+            &mission,
+            &Options { planner: Some(planner), faults: FaultChoice::None, ..Options::default() },
+        );
         assert_eq!((end.outcome, end.replans), (Outcome::Completed, 0), "{planner:?}");
         match planner {
             Planner::Exact { aim: Aim::MinEnergy, .. } => {

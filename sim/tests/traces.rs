@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{patrol, patrol_text, under, with_period};
+use common::{patrol, under, with_period};
 use cotama_sim::options::{Options, Planner};
 use cotama_sim::trace::{Limits, Record, Trace, replay};
 use proptest::prelude::*;
@@ -15,7 +15,7 @@ use std::sync::LazyLock;
 static SECONDS_30: LazyLock<String> = LazyLock::new(|| text(&with_period(30_000)));
 
 fn text(options: &Options) -> String {
-    Trace::record("patrol", patrol_text(), options).unwrap().0.to_json_lines()
+    Trace::record(&patrol(), options).unwrap().0.to_json_lines()
 }
 
 /// The lines after the header, which holds the mission file with all its comments.
@@ -64,12 +64,12 @@ fn a_trace_runs_again_from_its_own_text() {
     let upward = cotama_core::monitor::Upward { growth: [1, 2], reserve: [3, 4] };
     let options = Options {
         seed: u64::MAX,
-        planner: Planner::PanoramaThenExact { steps: 1_000 },
+        planner: Some(Planner::PanoramaThenExact { steps: 1_000 }),
         upward: Some(upward),
         ..under(&patrol(), random)
     };
     for options in [Options::default(), options] {
-        let (trace, run) = Trace::record("patrol", patrol_text(), &options).unwrap();
+        let (trace, run) = Trace::record(&patrol(), &options).unwrap();
         let read = Trace::parse("patrol.jsonl", &trace.to_json_lines()).unwrap();
         assert_eq!(read, trace);
         let again = replay(&read).unwrap();
@@ -84,20 +84,55 @@ fn a_trace_runs_again_from_its_own_text() {
 #[test]
 fn a_changed_trace_is_not_identical() {
     let original = &*SECONDS_30;
-    let changes = [
+    // The script draws no random numbers, so another seed is the same run under another header;
+    // spaces and line ends are no part of a record.
+    let same = [
         original.replacen("\"seed\":0", "\"seed\":1", 1),
-        original.replacen("\"replans\":3", "\"replans\":2", 1),
-        original.replacen("\"replans\":3", "\"replans\": 3", 1),
-        original.replacen("delay_ms = 5500", "delay_ms = 5501", 1),
+        original.replacen("\"replans\":3", "\"replans\": 3.0", 1),
         original.replace('\n', "\r\n"),
         original.trim_end().to_owned(),
+        original.clone() + "\n",
     ];
-    for (index, changed) in changes.iter().enumerate() {
+    for (index, changed) in same.iter().enumerate() {
         assert_ne!(changed, original, "change {index}");
         let replayed = replay(&Trace::parse("changed", changed).unwrap()).unwrap();
-        // The script draws no random numbers, so another seed is the same run under another header.
-        assert_eq!(replayed.identical, index == 0, "change {index}");
+        assert_eq!(replayed.difference, None, "change {index}");
+        assert!(replayed.identical);
     }
+    let end = original.lines().count();
+    let kind = |line: usize| original.lines().nth(line - 1).unwrap().split('"').nth(3).unwrap();
+    let changes = [
+        (original.replacen("\"replans\":3", "\"replans\":2", 1), end, "replans"),
+        (
+            original.replacen("\"path_length_mm\":187000", "\"path_length_mm\":1", 1),
+            1,
+            "path_length_mm",
+        ),
+        (original.replacen("\"steps\":", "\"steps\":1", 1), 2, "steps"),
+        (original.replacen("\"return_margin\"", "\"other\":[],\"return_margin\"", 1), 2, "other"),
+        (
+            original.replacen("\"planned_power_mw\":", "\"planned_power_mw\":9", 1),
+            3,
+            "planned_power_mw",
+        ),
+    ];
+    for (changed, line, field) in changes {
+        let replayed = replay(&Trace::parse("changed", &changed).unwrap()).unwrap();
+        let found = replayed.difference.unwrap();
+        assert!(!replayed.identical);
+        let named = found.field.clone().unwrap().field;
+        assert_eq!((found.line, named.as_str()), (line, field));
+        assert!(line == 1 || kind(line) == found.record, "{found:?}");
+    }
+    // A script with another number in it is another run, from that event on.
+    let other = original.replacen("delay_ms = 3000", "delay_ms = 3001", 1);
+    let found = replay(&Trace::parse("changed", &other).unwrap()).unwrap().difference.unwrap();
+    assert!(found.line > 10 && found.there == [true, true], "{found:?}");
+    // A record that is missing, at the end of what is left.
+    let lines: Vec<_> = original.lines().collect();
+    let without = [&lines[..end - 2], &lines[end - 1..]].concat().join("\n");
+    let found = replay(&Trace::parse("changed", &without).unwrap()).unwrap().difference.unwrap();
+    assert_eq!(found.line, end - 1);
 }
 
 #[test]
@@ -121,12 +156,12 @@ fn every_plan_is_followed_by_its_sample() {
 }
 
 #[test]
-fn errors_say_where_and_what() {
+fn errors_give_position_and_cause() {
     let original = &*SECONDS_30;
     let lines: Vec<_> = original.lines().collect();
     let error = |text: &str| Trace::parse("t.jsonl", text).unwrap_err().to_string();
     assert_eq!(error(""), "t.jsonl:1:1: the trace is empty");
-    assert!(error("{}").starts_with("t.jsonl:1:2: missing field `schema`"), "{}", error("{}"));
+    assert!(error("{}").starts_with("t.jsonl:1:2: `schema` is missing"), "{}", error("{}"));
     let other = original.replacen("cotama-trace/1", "cotama-trace/9", 1);
     assert_eq!(
         error(&other),
@@ -153,7 +188,7 @@ fn errors_say_where_and_what() {
     let mut swapped = lines.clone();
     swapped.swap(at + 1, at + 2);
     assert!(error(&swapped.join("\n")).contains("before that of the last"));
-    // What is just within the limits is read.
+    // A text just within the limits is read.
     let longest = lines.iter().map(|it| it.len()).max().unwrap();
     let just = Limits { bytes: original.len(), line_bytes: longest, records: lines.len() - 1 };
     assert!(Trace::parse_within("t.jsonl", original, just).is_ok());

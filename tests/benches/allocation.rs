@@ -1,13 +1,13 @@
 //! Times the exact allocator on seeded instances: `cargo bench -p cotama-tests --bench allocation`.
 //!
-//! `--export DIR` also writes every instance and the results for `tests/compare/compare.py`, which
-//! times other solvers on the same instances. `--kind TEXT` keeps the kinds whose name contains the
-//! text.
+//! `--export DIR` also writes every instance and the results for
+//! `tests/evidence/compare/compare.py`, which times other solvers on the same instances.
+//! `--kind TEXT` keeps the kinds whose name contains the text.
 
 #![allow(clippy::cast_precision_loss)] // a gap in percent needs no more than a double's digits
 
 use cotama_core::allocation::{Allocator, Answer};
-use cotama_core::exact::{Exact, Item, Objective, Stage};
+use cotama_core::exact::{Objective, Workspace};
 use cotama_tests::families::{Correlation, correlated, robot_like};
 use cotama_tests::instances::{Instance, Zones, paper_like};
 use serde_json::json;
@@ -28,16 +28,12 @@ struct Timed {
 fn time(instance: &Instance<2>) -> Timed {
     let slices = instance.slices();
     let problem = instance.problem(&slices);
-    let count = instance.activities.iter().map(Vec::len).sum();
-    let (mut items, mut stages) = (vec![Item::EMPTY; count], vec![Stage::EMPTY; slices.len()]);
-    let mut plan = vec![0; slices.len()];
-    let mut seen = vec![cotama_core::exact::Seen::EMPTY; 1 << 18];
+    let (mut workspace, mut plan) = (Workspace::new(), vec![0; slices.len()]);
     let mut seconds = Vec::new();
     let begin = Instant::now();
     loop {
         let start = Instant::now();
-        let mut exact = Exact::new(&[Objective::MostQuality], STEPS, &mut items, &mut stages)
-            .with_memory(&mut seen);
+        let mut exact = workspace.exact(&problem, &[Objective::MostQuality], STEPS, 1 << 18);
         let answer =
             exact.allocate(&problem, &mut plan).expect("the memory is sized for the instance");
         seconds.push(start.elapsed().as_secs_f64());

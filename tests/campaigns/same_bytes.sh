@@ -14,7 +14,9 @@ cd "$folder"
 
 # Exit code 1 says that a requirement is broken, which is no error here.
 campaign() { "$cotama" campaign "$@" --shrink 0 >/dev/null 2>&1 || [ $? = 1 ]; }
-same() { cmp "$1/runs.jsonl" "$2/runs.jsonl" && cmp "$1/campaign.json" "$2/campaign.json"; }
+same() {
+    for file in runs.jsonl runs.sums campaign.json; do cmp "$1/$file" "$2/$file"; done
+}
 
 for mission in patrol delivery; do
     TIMEFORMAT=%U

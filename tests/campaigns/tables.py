@@ -28,6 +28,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         whole, parts, merged = (pathlib.Path(folder) / it for it in ("whole", "part", "merged"))
         what = ["delivery", "--runs", "70000", "--strategy", "swarm", "--shrink", "0"]
+        what += ["--require", "in-time", "--require", "AG (gs.Security -> AF<=500ms gs.Safe)"]
         campaign(*what, "--out", str(whole))
         shards = [f"{parts}{it}" for it in (1, 2, 3)]
         for number, shard in enumerate(shards, 1):
@@ -38,13 +39,14 @@ def main():
 
         lines = [json.loads(it) for it in (whole / "runs.jsonl").read_text().splitlines()]
         kept = ["run", "time_ms", "energy_mj", "x_mm", "requests", "replans", "exposed_ms",
-                "outcome", "faults", "violated"]
-        lines = [tuple(it[key] for key in kept) for it in lines]
+                "outcome", "faults", "violated", "plan", "witness"]
+        lines = [tuple(it.get(key) for key in kept) for it in lines]
         assert polars.read_parquet(table).rows() == lines, "Polars reads something else"
         rows = duckdb.read_parquet(str(table)).fetchall()
         assert rows == lines, "DuckDB reads something else"
-        broken = sum(bool(it[-1]) for it in lines)
-        assert broken > 0
+        broken = sum(bool(it[9]) for it in lines)
+        plans, witnesses = (sum(it[at] is not None for it in lines) for at in (10, 11))
+        assert 0 < witnesses <= broken == plans
         print(f"{len(lines)} runs, {broken} of them broken: the same in JSON lines and Parquet")
 
 

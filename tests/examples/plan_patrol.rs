@@ -2,7 +2,7 @@
 //! of its own for an instruction count; and the bytes of the patrol's memory.
 
 use cotama_core::allocation::{Allocator, Answer};
-use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
+use cotama_core::exact::{Exact, Item, Objective, Seen, Stage, Workspace};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::Problem;
 use cotama_models::missions::tables::buffer_sizes;
@@ -35,10 +35,9 @@ fn exact_patrol(problem: &Problem<'_, 2>, plan: &mut [u16]) -> Option<u64> {
 fn exact_hard(instance: &Instance<2>, plan: &mut [u16]) -> Option<u64> {
     let slices = instance.slices();
     let problem = instance.problem(&slices);
-    let (mut items, mut stages) = (vec![Item::EMPTY; 17 * 21], vec![Stage::EMPTY; 17]);
-    let mut seen = vec![Seen::EMPTY; 4096];
-    let exact = Exact::new(&[Objective::MostQuality], 100_000, &mut items, &mut stages);
-    match exact.with_memory(&mut seen).allocate(&problem, plan) {
+    let mut workspace = Workspace::new();
+    let mut exact = workspace.exact(&problem, &[Objective::MostQuality], 100_000, 4096);
+    match exact.allocate(&problem, plan) {
         Ok(Answer::Planned(planned)) => Some(planned.steps),
         _ => None,
     }

@@ -8,7 +8,9 @@
 mod mutant;
 mod random;
 mod run;
+mod split_mix;
 
 pub use mutant::{MAX_BYTES, mutant};
 pub use random::Random;
 pub use run::{Figures, Reader};
+pub use split_mix::split_mix;

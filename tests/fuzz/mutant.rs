@@ -1,4 +1,5 @@
-//! A text made wrong, in the ways in which files are wrong and in those in which nobody writes them.
+//! A text made wrong, in the ways in which files are wrong and in those in which nobody writes
+//! them.
 
 use crate::random::Random;
 use std::ops::Range;
@@ -165,7 +166,7 @@ fn nest(random: &mut Random, text: &mut Vec<u8>, words: &[&str]) {
     text.splice(at..at, again);
 }
 
-/// Where runs of such bytes stand.
+/// Returns the runs of such bytes.
 fn runs(text: &[u8], is_one: impl Fn(&u8) -> bool) -> Vec<Range<usize>> {
     let mut all: Vec<Range<usize>> = vec![];
     for (at, _) in text.iter().enumerate().filter(|(_, it)| is_one(it)) {

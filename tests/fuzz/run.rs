@@ -15,7 +15,7 @@ const HANGS: Duration = Duration::from_secs(20);
 /// The most memory of the whole process while a million inputs are read, where the system says it.
 const MAX_MEMORY_KIB: u64 = 1 << 20;
 
-/// What reads, and what must hold of it.
+/// A reader, with the condition that its answers must meet.
 #[derive(Clone, Copy, Debug)]
 pub struct Reader {
     /// The folder of its texts below `tests/corpora`.
@@ -27,7 +27,7 @@ pub struct Reader {
     pub read: fn(&[u8]) -> bool,
 }
 
-/// What became of the inputs.
+/// The figures of the inputs.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Figures {
     /// How many inputs were read.
@@ -96,8 +96,8 @@ impl Reader {
         assert!(memory.is_none_or(|it| it < MAX_MEMORY_KIB), "{}: {said}", self.name);
     }
 
-    /// That a file of the corpus is what the program writes: one of bytes, which nobody types. With
-    /// `UPDATE_GOLDEN` set it is written first.
+    /// Checks that a file of the corpus is as the program writes it: one of bytes, which nobody
+    /// types. With `UPDATE_GOLDEN` set it is written first.
     ///
     /// # Panics
     /// When it is not, or cannot be written or read.

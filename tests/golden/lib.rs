@@ -2,8 +2,10 @@
 //! project does not keep; figures that pages print.
 
 mod figures;
+mod json;
 
 pub use figures::{figure, figures};
+pub use json::json_lines;
 
 use std::ffi::OsStr;
 use std::fs;
@@ -101,7 +103,8 @@ pub fn skips() -> bool {
     is_skip(std::env::var_os("COTAMA_SKIP_PUBLIC").as_deref())
 }
 
-/// What this value of `COTAMA_SKIP_PUBLIC` says: skipped is what lacks only where it is 1.
+/// Returns whether this value of `COTAMA_SKIP_PUBLIC` says to skip: a missing tool or file is
+/// passed over only where it is 1.
 #[must_use]
 pub fn is_skip(value: Option<&OsStr>) -> bool {
     value.is_some_and(|it| it == "1")

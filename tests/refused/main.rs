@@ -1,4 +1,4 @@
-//! What `net!` and `system!` refuse while compiling, and in which words.
+//! Refusals of `net!` and `system!` while compiling, with their words.
 //!
 //! Every file in `cases` is a library with nets and systems. Those named `*_ok` compile without a
 //! warning; the others are refused, as `golden.txt` says. After a change of the words:
@@ -19,22 +19,22 @@ const WHEN_USED: [&str; 2] = ["state_of_33_places", "state_of_two_tokens"];
 
 /// The supervisor of the README, and the same without its `ignore`.
 const README_CASES: [&str; 2] = ["readme", "readme_without_ignore"];
-/// What stands before the words of `net!`.
+/// The text before the words of `net!`.
 const OURS: &str = "evaluation panicked: ";
 
-/// What the compiler says of one case.
+/// The words of the compiler on one case.
 #[derive(Default)]
 struct Said {
-    /// What is wrong, in the words of `net!`.
+    /// Errors in the words of `net!`.
     refusals: Vec<String>,
-    /// What is wrong in the compiler's own words; where it stops reading.
+    /// Errors in the compiler's own words; it stops reading there.
     stops: Vec<String>,
     warnings: Vec<String>,
 }
 
 impl Said {
-    /// What is wrong. Beside the words of `net!` those of the compiler say the same once more, or
-    /// follow from it.
+    /// Returns the errors. Beside the words of `net!` those of the compiler say the same once more,
+    /// or follow from it.
     fn errors(&self) -> &[String] {
         if self.refusals.is_empty() { &self.stops } else { &self.refusals }
     }
@@ -124,7 +124,7 @@ fn package(here: &Path, names: &[String]) -> PathBuf {
     package
 }
 
-/// What the compiler says of each case.
+/// Returns the words of the compiler on each case.
 fn compile(package: &Path) -> BTreeMap<String, Said> {
     let mut said = BTreeMap::new();
     for task in [
@@ -176,7 +176,7 @@ fn hear(said: &mut Said, message: &Value) {
     }
 }
 
-/// Where the compiler stops reading: the words are its own.
+/// Returns the place where the compiler stops reading: the words are its own.
 fn place(message: &Value) -> String {
     let Some(span) = message["spans"]
         .as_array()

@@ -1,5 +1,5 @@
 //! The figures of the pages are those that tests assert: each stands in one file, or is counted.
-//! The page of claims is written from them and from `tests/claims.toml`.
+//! The page of claims is read in its regular form, and what it names must be there.
 //!
 //! A page shows a figure in front of a comment that names it, `110,346<!--=delivery.states-->`;
 //! with `UPDATE_GOLDEN=1` the numbers are written anew.
@@ -29,37 +29,12 @@ fn pages() -> Vec<PathBuf> {
     pages
 }
 
-/// What is kept, and what is counted in the lists of seeded defects and of generated mutants: all
-/// that a test could notice, and those that one does.
+/// Returns the figures that are kept, and those that are counted in golden lists.
 fn all() -> BTreeMap<String, u64> {
     let mut all: BTreeMap<_, _> = figures().map(|it| (it.0.to_owned(), it.1)).collect();
-    for list in ["core", "sim", "models", "cli"] {
-        let text = fs::read_to_string(root().join(format!("tests/mutants/{list}.txt")));
-        let text = text.expect("a list of seeded defects");
-        let defects: Vec<_> = text.split("mutant: ").skip(1).collect();
-        let says = |it: &&str, key: &str| it.lines().any(|it| it.starts_with(key));
-        let seeded = defects.iter().filter(|it| !says(it, "equivalent: "));
-        let killed = seeded.clone().filter(|it| says(it, "by: ") && !says(it, "open: "));
-        all.insert(format!("defects.{list}"), seeded.count() as u64);
-        all.insert(format!("defects.{list}.killed"), killed.count() as u64);
-    }
-    for list in ["checker", "core", "language", "models"] {
-        let text = fs::read_to_string(root().join(format!("tests/mutants/generated/{list}.txt")));
-        let text = text.expect("a list of generated mutants");
-        let count = |key: &str| {
-            let number = text.lines().find_map(|it| it.strip_prefix(key)).expect("a count");
-            number.parse::<u64>().expect("a number")
-        };
-        let killed = count("caught: ") + count("too long: ");
-        all.insert(format!("generated.{list}"), killed + count("missed: "));
-        all.insert(format!("generated.{list}.killed"), killed);
-        let first = text.lines().find_map(|it| it.strip_prefix("first: ")).expect("the first run");
-        let first = first.split(' ').next().and_then(|it| it.parse().ok()).expect("a number");
-        all.insert(format!("generated.{list}.first"), first);
-    }
     count_harnesses(&mut all);
     count_mistakes(&mut all);
-    count_roots(&mut all);
+    all.extend(Claims::read().counts());
     let mutants = root().join("verification/tests/golden/rounds/mutants.txt");
     let mutants = fs::read_to_string(mutants).expect("what each mutant of the delivery breaks");
     for (name, word) in [
@@ -85,18 +60,9 @@ fn count_harnesses(all: &mut BTreeMap<String, u64>) {
     all.insert("proofs.exhaustive".into(), of("*exhaustive ("));
     all.insert("proofs.sampled".into(), of("*sampled ("));
     all.insert("proofs.symbolic".into(), of("machine code, all"));
-    let bugs = fs::read_to_string(root().join("tests/proofs/bugs.txt")).expect("the bugs");
+    let bugs = fs::read_to_string(root().join("tests/evidence/proofs/bugs.txt")).expect("the bugs");
     let bugs = bugs.lines().filter(|it| it.starts_with("harness: ")).count();
     all.insert("proofs.bugs".into(), bugs as u64);
-}
-
-/// The roots that the linker is asked about, and the public functions that they call.
-fn count_roots(all: &mut BTreeMap<String, u64>) {
-    for list in ["roots", "functions"] {
-        let path = root().join(format!("tests/no_panic/{list}.txt"));
-        let lines = fs::read_to_string(path).expect("a list").lines().count();
-        all.insert(format!("no-panic.{list}"), lines as u64);
-    }
 }
 
 /// The small mistakes in the nets, and what becomes of them.
@@ -152,9 +118,6 @@ fn a_figure_of_a_page_is_the_one_that_a_test_asserts() {
         cotama_golden::compare(&path, &page);
         shown.extend(names);
     }
-    let (page, names) = page::page(&figures);
-    cotama_golden::compare(root().join("docs/claims.md"), &page);
-    shown.extend(names);
     // Not kept for nothing: a page shows it, and a test reads it.
     let mut asserted = String::new();
     for folder in [
@@ -163,7 +126,7 @@ fn a_figure_of_a_page_is_the_one_that_a_test_asserts() {
         "verification/tests",
         "cli/tests",
         "tests/stories",
-        "tests/measure",
+        "tests/evidence/measure",
     ] {
         sources(&root().join(folder), &mut asserted);
     }
@@ -171,14 +134,14 @@ fn a_figure_of_a_page_is_the_one_that_a_test_asserts() {
         assert!(shown.contains(name), "no page shows `{name}`");
         let reads = [format!("\"{name}\""), format!("figure {name})")];
         let is_asserted = reads.iter().any(|it| asserted.contains(it));
-        let counted = ["defects.", "generated.", "mistakes", "mutants.", "no-panic.", "proofs."];
+        let counted = ["claims.", "mistakes", "mutants.", "proofs."];
         let is_counted = counted.iter().any(|it| name.starts_with(it));
         assert!(is_asserted || is_counted, "no test asserts `{name}`");
     }
 }
 
 #[test]
-fn a_claim_has_its_words_and_names_what_is_there() {
+fn a_claim_has_its_words_and_names_existing_files() {
     let claims = Claims::read();
     let mut wrong = claims.defects();
     wrong.extend(claims.all.iter().flat_map(commands::defects));

@@ -94,7 +94,7 @@ impl Game {
         (after, fired)
     }
 
-    /// What is outside does this, or nothing; `None` when it cannot.
+    /// Fires the transition of the environment for this event, or none; `None` when it cannot.
     fn outside(&self, marking: &mut Marking, told: Option<&str>) -> Option<TransitionId> {
         let on = |id: &TransitionId| self.net.transitions[id.0 as usize].on;
         let name =
@@ -232,7 +232,7 @@ const PAGE: &str = include_str!("../../docs/delivery.md");
 fn rows(run: &Run) -> String {
     let time = |round: u64| Millis((round - 1) * PERIOD.0);
     let mut rows = String::new();
-    // What is told in rounds that follow each other belongs together.
+    // Events of rounds that follow each other belong together.
     for told in run.told.chunk_by(|a, b| a.0 + 1 == b.0) {
         let (from, last) = (time(told[0].0), told[told.len() - 1].0);
         let to = run.told.iter().find(|it| it.0 > last).map_or(run.time, |it| time(it.0));
@@ -262,7 +262,7 @@ fn the_page_of_the_delivery_tells_the_run() {
 }
 
 #[test]
-fn what_the_page_of_the_delivery_claims_holds() {
+fn the_claims_of_the_delivery_page_hold() {
     let net = rounds(&delivery::SYSTEM).unwrap().net().unwrap();
     let model = Model::from(&net.view().net());
     let claims: Vec<_> = PAGE.split('`').filter(|it| it.starts_with("AG ")).collect();
@@ -334,7 +334,7 @@ fn two_hundred_triples_of_failures_are_runs_of_the_checked_system() {
     }
 }
 
-/// Where modules return: one failure after another, each for a while.
+/// Missions in which modules return: one failure after another, each for a while.
 #[test]
 fn two_hundred_missions_with_returns_are_runs_of_the_checked_system() {
     let embedded = cotama_models::missions::embedded::mission("delivery").unwrap();

@@ -13,7 +13,7 @@ fn block(language: &str) -> &'static str {
 }
 
 #[test]
-fn the_first_program_has_at_most_40_lines_and_prints_what_its_page_says() {
+fn the_first_program_has_at_most_40_lines_and_prints_the_text_of_its_page() {
     let (dependencies, program) = (block("toml"), block("rust"));
     assert!(program.lines().count() <= 40);
     assert!(program.lines().all(|it| it.len() <= 100));

@@ -1,10 +1,10 @@
-//! What the best assignment saves, as `docs/teams.md` says it.
+//! The savings of the best assignment, as in `docs/teams.md`.
 
 use crate::draw::Draw;
-use crate::team_tables::{Kind, Room, again, team};
-use cotama_core::team::joint::Outcome;
-use cotama_core::team::thesis::{State, greedy};
+use crate::team_tables::{Kind, again, team};
+use cotama_core::team::winners::{Outcome, Workspace};
 use cotama_core::team::{Cost, Costs, Fixed, Memory, Team, assign};
+use cotama_models::team::thesis::{State, greedy};
 use std::fmt::Write;
 
 const PAGE: &str = include_str!("../../docs/teams.md");
@@ -82,10 +82,11 @@ fn one_auction_after_another_drives_further_than_the_best_assignment() {
     is_told(&table);
 }
 
-/// What greedy rounds come to with this team, and the best answer; none where nobody can serve all.
+/// Returns the result of greedy rounds with this team, and the best answer; `None` where nobody can
+/// serve all.
 fn rounds(team: &Team<'_>) -> Option<(u64, usize, u64)> {
-    let mut room = Room::<20>::new(team, 40_000);
-    let mut joint = room.joint();
+    let mut workspace = Workspace::<20>::new();
+    let mut joint = workspace.winners(team, 40_000);
     let Outcome::Optimal { cost } = joint.solve(team, 5_000_000).expect("there is memory").outcome
     else {
         return None;

@@ -4,7 +4,7 @@ use cotama_core::net::EventId;
 use cotama_core::player::{
     Firing, Names, Observer, Outcome, Packed, Player, Program, Round, Why, clocks, words,
 };
-use cotama_core::system::{Component, Of, System, SystemDefect};
+use cotama_core::system::{Component, Of, System, SystemError};
 use cotama_core::units::Millis;
 use cotama_core::{net, system};
 use cotama_models::cotama::{Cause, DecisionalLevel, Told, delivery, global};
@@ -64,7 +64,7 @@ system! {
 }
 
 #[test]
-fn what_the_flag_of_another_net_enables_fires_at_once_or_is_announced() {
+fn a_transition_enabled_by_the_flag_of_another_net_fires_at_once_or_is_announced() {
     let (mut train, mut told) = (train::Player::new(), Vec::new());
     let mut note = |it: &train::Firing<'_>| told.push((it.outputs().next(), it.at));
     assert_eq!(train.wake_at(), None);
@@ -97,8 +97,8 @@ net! {
     }
 }
 
-/// It is empty and full, which only damage can bring about. Five and five are ten, which is two
-/// and a carry where there is room for a number up to seven.
+/// A marking both empty and full, which only damage can bring about. Five and five are ten, which
+/// is two and a carry where there is room for a number up to seven.
 #[test]
 fn a_restored_marking_that_cannot_be_reached_loses_no_token() {
     use crate_of_five::{Checked, Event, Place, Transition};
@@ -124,7 +124,7 @@ fn a_net_with_an_interval_has_no_player_without_clocks() {
     let alone = [Component::alone(&patient::NET)];
     let system = System::alone(&alone);
     assert_eq!((words(&system), clocks(&system)), (Some(1), 1));
-    assert_eq!(Packed::<1>::of(&system).err(), Some(SystemDefect::TooLong));
+    assert_eq!(Packed::<1>::of(&system).err(), Some(SystemError::TooLong));
     let packed = Packed::<1, 1>::of(&system).unwrap();
     let player = Player::<_, 1, 1>::start(packed.load(&system), Millis(0), &mut ());
     assert_eq!(player.wake_at(), None); // nothing sets what it shares
@@ -175,7 +175,7 @@ const ASK: office::Event = office::Event::clerk(clerk::Event::ask);
 /// With two notes waiting nobody can ask, until at 11 ms nobody notes it any more: that is when the
 /// asker asks, however often it is told the time.
 #[test]
-fn what_waits_for_room_goes_on_when_it_needs_none() {
+fn a_transition_that_waits_for_room_fires_when_it_needs_none() {
     let told_at = |times: &[u64]| {
         let (mut office, mut at) = (office::Player::new(), Vec::new());
         for _ in 0..2 {
@@ -192,9 +192,9 @@ fn what_waits_for_room_goes_on_when_it_needs_none() {
     assert_eq!(late, told_at(&[5, 10, 20]));
 }
 
-/// What an event that is read throws away has not been read.
+/// An event thrown away by one that is read has not been read.
 #[test]
-fn what_is_thrown_away_while_it_waits_is_not_ignored() {
+fn a_waiting_event_thrown_away_is_not_ignored() {
     let mut office = office::Player::new();
     for _ in 0..2 {
         assert!(office.offer(Millis(0), &ASK).fired());
@@ -214,7 +214,7 @@ net! {
 
 /// A net alone says as much as one of several.
 #[test]
-fn a_net_alone_tells_what_it_ignores_and_carries_what_it_is_given() {
+fn a_net_alone_reports_ignored_events_and_carries_payloads() {
     #[derive(Default)]
     struct Log(Vec<(bool, u8)>);
     impl<P: Names> Observer<P, u8> for Log {

@@ -3,7 +3,6 @@
 pub(crate) mod by_the_book;
 mod games;
 mod limits;
-mod packed;
 mod snapshots;
 mod steps;
 
@@ -57,7 +56,7 @@ fn time_passes_by_the_book() {
     assert!(timed.iter().all(|&it| it > 5_000), "{seen:?}");
 }
 
-/// What was seen of so many sound systems, and how many more were not sound.
+/// Returns the events seen in so many sound systems, and how many more were not sound.
 fn together(count: u64) -> (Seen, u64) {
     let mut seen = Seen::default();
     let mut last = 0;

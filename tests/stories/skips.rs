@@ -18,13 +18,13 @@ fn a_folder_that_is_named_must_be_there_whether_tests_are_skipped_or_not() {
 }
 
 #[test]
-fn without_a_folder_a_test_is_skipped_only_where_it_was_asked_for() {
+fn a_test_without_its_folder_is_skipped_only_on_request() {
     assert_eq!(folder_or_skip(None, true), Ok(None));
     assert!(folder_or_skip(None, false).unwrap_err().contains("COTAMA_SKIP_PUBLIC=1"));
 }
 
 #[test]
-fn a_tool_that_lacks_is_passed_over_only_where_it_was_asked_for() {
+fn a_missing_tool_is_passed_over_only_on_request() {
     assert_eq!((tool_or_skip(true, true), tool_or_skip(true, false)), (Ok(true), Ok(true)));
     assert_eq!(tool_or_skip(false, true), Ok(false));
     assert!(tool_or_skip(false, false).unwrap_err().contains("COTAMA_SKIP_PUBLIC=1"));

@@ -4,7 +4,7 @@ use cotama_core::net::EventId;
 use cotama_core::player::{
     Checked, Kind, Observer, Outcome, Packed, Player, Program, RestoreError, Round, Snapshot, Why,
 };
-use cotama_core::system::{Of, System, SystemDefect};
+use cotama_core::system::{Of, System, SystemError};
 use cotama_core::units::Millis;
 use cotama_core::{net, system};
 
@@ -101,7 +101,7 @@ const MAKE: line::Event = line::Event::maker(maker::Event::make);
 const FLUSH: line::Event = line::Event::maker(maker::Event::flush);
 const PART: line::Event = line::Event::worker(worker::Event::part);
 
-/// What is seen, in words.
+/// A log in words.
 #[derive(Default)]
 struct Log(Vec<String>);
 
@@ -131,7 +131,7 @@ impl Observer<line::Program, u8> for Log {
 }
 
 #[test]
-fn what_is_mailed_waits_for_the_turn_and_carries_its_payload() {
+fn a_mailed_event_waits_for_the_turn_and_carries_its_payload() {
     let (mut line, mut log) = (Line::new(), Log::default());
     assert!(line.offer_carrying(Millis(5), &MAKE, 7, &mut log).fired());
     assert_eq!(line.waiting(&PART), 1);
@@ -180,8 +180,39 @@ fn a_full_mailbox_refuses_and_nothing_has_happened() {
     assert_eq!(line, before);
 }
 
+/// What is told to a person has the names of the tables, not numbers of places in them.
 #[test]
-fn the_oldest_is_read_first_and_what_is_not_wanted_is_ignored_for_good() {
+fn answers_of_a_system_are_shown_by_their_names() {
+    let (mut line, mut cell) = (Line::new(), broadcast::Carrying::<u8>::new());
+    let make = broadcast::Event::maker(maker::Event::make);
+    let nobody = Of { component: 9, id: EventId(0) };
+    let mut shown = vec![
+        format!("{:?}", line.offer_carrying(Millis(0), &MAKE, 1, &mut ())),
+        format!("{:?}", line.offer_carrying(Millis(0), &MAKE, 2, &mut ())),
+        format!("{:?}", line.offer_carrying(Millis(0), &MAKE, 3, &mut ())),
+        format!("{:?}", line.offer_carrying(Millis(0), &FLUSH, 4, &mut ())),
+        format!("{:?}", cell.offer_carrying(Millis(0), &make, 1, &mut ())),
+        format!("{:?}", cell.offer_carrying(Millis(0), &make, 2, &mut ())),
+        format!("{:?}", line.offer_id(Millis(0), nobody, 0, &mut ())),
+    ];
+    let round = cell.round(Millis(0));
+    assert_eq!(round.fired, 2);
+    shown.push(format!("{:?}", cell.offer_carrying(Millis(0), &make, 3, &mut ())));
+    let names = [
+        "Fired { transition: maker(make), settled: 0 }",
+        "Fired { transition: maker(make), settled: 0 }",
+        "Refused { full: worker.part }",
+        "Fired { transition: maker(flush), settled: 0 }",
+        "Fired { transition: maker(make), settled: 0 }",
+        "Refused { full: one.part }",
+        "Ignored { why: NoSuchEvent }",
+        "Fired { transition: maker(make), settled: 0 }",
+    ];
+    assert_eq!(shown, names);
+}
+
+#[test]
+fn the_oldest_event_is_read_first_and_an_unwanted_one_ignored_for_good() {
     let (mut line, mut log) = (Line::new(), Log::default());
     for part in [1, 2] {
         let _ = line.offer_carrying(Millis(0), &MAKE, part, &mut ());
@@ -209,7 +240,7 @@ fn an_event_empties_a_mailbox_even_when_its_net_ignores_it() {
 }
 
 #[test]
-fn a_shared_place_sees_what_waits() {
+fn a_shared_place_sees_the_waiting_events() {
     let mut line = Line::new();
     for _ in 0..3 {
         let _ = line.offer(line.now(), &MAKE);
@@ -264,7 +295,7 @@ fn a_system_that_does_not_fit_together_says_why() {
     let whole = line::SYSTEM;
     assert_eq!(whole.defect(), None);
     let unbound = System { bindings: &[], ..whole };
-    assert!(matches!(unbound.defect(), Some(SystemDefect::Unbound(Of { component: 2, .. }))));
+    assert!(matches!(unbound.defect(), Some(SystemError::Unbound(Of { component: 2, .. }))));
     let packed = Packed::<2, 1, 2>::of(&whole).unwrap();
     let program = packed.load(&whole);
     assert_eq!(program.code().initial.first(), line::Program.code().initial.first());
@@ -299,7 +330,7 @@ fn however_much_happens_at_once_it_is_told_once() {
 
 /// A system that is stored comes back with its clocks and all that waits.
 #[test]
-fn a_line_that_is_stored_goes_on_where_it_was() {
+fn a_stored_line_goes_on_from_its_state() {
     let mut line = Line::new();
     let _ = line.offer_carrying(Millis(0), &MAKE, 1, &mut ());
     let _ = line.round(Millis(0));

@@ -1,11 +1,11 @@
 //! The twelve teams of `models/teams`: each answer is the proven one, and adds up.
 
-use cotama_core::team::joint::Outcome;
+use cotama_core::team::winners::{Outcome, Workspace};
 use cotama_core::team::{Fixed, Team, bottleneck, coalition, conflict};
 use cotama_models::team::instance::Instance;
 use serde_json::Value;
 
-use crate::team_tables::{Room, again};
+use crate::team_tables::again;
 
 /// Runs something on the team of an instance, and on what its file expects.
 fn with<R>(name: &str, act: impl FnOnce(&Team<'_>, &Value) -> R) -> R {
@@ -35,8 +35,8 @@ const ALL: [&str; 12] = [
 fn each_team_has_the_proven_answer() {
     for name in ALL {
         with(name, |team, expected| {
-            let mut room = Room::<12>::new(team, 2_000);
-            let mut joint = room.joint();
+            let mut workspace = Workspace::<12>::new();
+            let mut joint = workspace.winners(team, 2_000);
             let outcome = joint.solve(team, 1_000_000).expect("there is memory").outcome;
             if expected["status"] == "infeasible" {
                 assert!(matches!(outcome, Outcome::Infeasible { .. }), "{name}: {outcome:?}");
@@ -62,11 +62,11 @@ fn one_task_alone_has_it_too() {
 }
 
 #[test]
-fn who_is_in_conflict_is_named() {
+fn tasks_and_robots_in_conflict_are_named() {
     // Three tasks share two capable robots.
     with(ALL[3], |team, _| {
-        let mut room = Room::<12>::new(team, 2_000);
-        let mut joint = room.joint();
+        let mut workspace = Workspace::<12>::new();
+        let mut joint = workspace.winners(team, 2_000);
         let outcome = joint.solve(team, 1_000_000).expect("there is memory").outcome;
         let Outcome::Infeasible { robots } = outcome else { panic!("{outcome:?}") };
         let tasks = (0..team.tasks().len()).filter(|it| joint.in_conflict(*it));

@@ -5,14 +5,14 @@ use cotama_core::player::LARGEST;
 use cotama_core::system::{Delivery, Of, System, Target};
 use std::cmp::Reverse;
 
-/// What a number of tokens stands for.
+/// The meaning of a number of tokens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cell {
     /// The tokens of a place.
     Place(Of<PlaceId>),
-    /// What a place lacks to its bound.
+    /// The free room of a place up to its bound.
     Absence(Of<PlaceId>),
-    /// What waits in the mailbox of an event.
+    /// The events waiting in the mailbox of an event.
     Waiting(Of<EventId>),
     /// For how many more there is room in it.
     Room(Of<EventId>),
@@ -36,7 +36,7 @@ pub struct Line {
     pub give: Tokens,
     /// The events that it causes, in this order.
     pub says: Vec<(Of<EventId>, Delivery)>,
-    /// Its interval.
+    /// Interval.
     pub within: Option<Within>,
 }
 
@@ -45,7 +45,7 @@ pub struct Line {
 pub struct Book {
     /// All cells, with the most that they hold.
     pub cells: Vec<(Cell, u32)>,
-    /// What they hold at the start.
+    /// Tokens at the start.
     pub initial: Vec<u32>,
     /// All transitions, in the order of the components.
     pub lines: Vec<Line>,
@@ -77,7 +77,7 @@ impl Book {
             book.add(system, cell(system, Of { component, id: PlaceId(id) }));
         }
         for binding in system.bindings {
-            // What a place lacks that several nets share counts as tokens do.
+            // The free room of a place that several nets share counts as tokens do.
             if let Target::Place(of) = binding.target {
                 book.add(system, Cell::Absence(of));
             }
@@ -143,7 +143,8 @@ impl Book {
             arcs.iter().map(one).collect()
         };
         let (mut take, mut give) = (tokens(it.take), tokens(it.give));
-        // Who changes a place changes what it lacks, by the net change, if not by arcs of its own.
+        // A transition that changes a place changes its free room, by the net change, if not by
+        // arcs of its own.
         for at in 0..self.cells.len() {
             let Cell::Place(of) = self.cells[at].0 else { continue };
             let Some(absence) = self.find(Cell::Absence(of)) else { continue };
@@ -173,7 +174,7 @@ impl Book {
     }
 }
 
-/// What a place of a net is in the system.
+/// Returns the cell of the system for a place of a net.
 fn cell(system: &System<'_>, of: Of<PlaceId>) -> Cell {
     let net = system.components[usize::from(of.component)].net;
     match net.places[of.id.0 as usize].role {

@@ -29,11 +29,11 @@ pub struct Game<'s> {
     pub system: System<'s>,
     /// The system written out.
     pub book: Rc<Book>,
-    /// What can be undone.
+    /// The state, which can be undone.
     pub state: State,
     /// The time.
     pub now: u64,
-    /// What happened so far, in this order.
+    /// Events so far, in this order.
     pub told: Vec<Told>,
     /// How many transitions have fired in this call.
     pub fired: u32,
@@ -46,7 +46,7 @@ pub struct Game<'s> {
 pub struct State {
     /// The tokens of each cell.
     pub tokens: Vec<u32>,
-    /// What waits in each mailbox, the oldest first.
+    /// Waiting events of each mailbox, the oldest first.
     pub mail: Vec<VecDeque<u16>>,
     /// Since when the marking has enabled each transition, undisturbed.
     pub since: Vec<Option<u64>>,
@@ -361,7 +361,7 @@ impl<'s> Game<'s> {
         self.start_clocks();
     }
 
-    /// Of transitions that the marking does not enable.
+    /// Stops the clocks of transitions that the marking does not enable.
     fn stop_clocks(&mut self) {
         for at in 0..self.state.since.len() {
             if !self.has_tokens(at) {
@@ -370,7 +370,7 @@ impl<'s> Game<'s> {
         }
     }
 
-    /// Of transitions that the marking enables and whose clocks do not run yet.
+    /// Starts the clocks of transitions that the marking enables and whose clocks do not run yet.
     fn start_clocks(&mut self) {
         for at in 0..self.state.since.len() {
             if self.has_tokens(at) {

@@ -13,7 +13,7 @@ pub const CLOCKS: usize = 8;
 /// Whether transitions have intervals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Time {
-    /// None has.
+    /// No net has intervals.
     Without,
     /// Up to [`CLOCKS`] have.
     With,
@@ -208,8 +208,8 @@ fn arcs_of_a_machine(
     it
 }
 
-/// What it waits for, and what it says. One that fires at once by itself mostly moves tokens to
-/// later places only, so that the net settles.
+/// Draws the event and the outputs of a transition. One that fires at once by itself mostly moves
+/// tokens to later places only, so that the net settles.
 fn trigger(
     mut it: OwnedTransition,
     net: &OwnedNet,

@@ -16,11 +16,11 @@ pub const SLOTS: usize = 12;
 /// A system that owns its lists.
 #[derive(Clone, Debug, Default)]
 pub struct OwnedSystem {
-    /// Its nets, in the order of their turns.
+    /// The nets, in the order of their turns.
     pub nets: Vec<OwnedNet>,
     /// Which output causes which event.
     pub links: Vec<Link>,
-    /// Whose place a shared place is.
+    /// The owner of each shared place.
     pub bindings: Vec<Binding>,
     /// Which event empties which mailbox.
     pub clears: Vec<Clear>,
@@ -206,7 +206,8 @@ fn transition(
     }
     let at_once = it.on.is_none() && it.within.is_none_or(|it| it.earliest == 0);
     let (mut from, mut to) = (below(draw, states), below(draw, states));
-    // What fires at once by itself mostly leads on to later states only, so that the net settles.
+    // Transitions that fire at once by themselves mostly lead on to later states only, so that the
+    // net settles.
     if at_once && !one_in(draw, 20) {
         (from, to) = (from.min(to), from.max(to));
         if from == to {
@@ -229,7 +230,7 @@ fn transition(
     it
 }
 
-/// What a transition does with a place of data: it tests it, or counts up or down, with the
+/// Adds the effect of a transition on a place of data: it tests it, or counts up or down, with the
 /// complement where the net has one; mailboxes are only tested.
 fn data(
     it: OwnedTransition,
@@ -253,7 +254,7 @@ fn data(
         _ if only_read => it,
         (4, Some(absence)) => it.take(place, weight).give(absence, weight),
         (5, Some(absence)) => it.take(absence, weight).give(place, weight),
-        // Its complement follows a shared place where the net does not move it.
+        // The complement follows a shared place where the net does not move it.
         (6, Some(absence)) if role == Role::Shared => it.read(absence, 1).give(place, weight),
         (7, Some(_)) if role == Role::Shared => it.take(place, weight),
         (4, None) => it.take(place, weight),

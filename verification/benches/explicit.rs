@@ -27,8 +27,7 @@ fn on_processor() -> Option<u64> {
     threads.map(|it| nanoseconds(it.ok()?)).sum()
 }
 
-/// What was found, the seconds that it took by the clock, and on a processor when there is one
-/// thread.
+/// Returns the result, and the seconds by the clock, and on a processor when there is one thread.
 fn timed<T>(jobs: usize, times: usize, mut run: impl FnMut() -> T) -> (T, f64, f64) {
     let once = |_| {
         let (start, before) = (Instant::now(), on_processor());
@@ -49,7 +48,7 @@ fn main() {
     let jobs = after("--jobs").map_or(1, |it| it.parse().expect("--jobs takes a number"));
     let bytes = after("--mib").map(|it| it.parse::<u64>().expect("--mib takes a number") << 20);
     let limits = bytes.map_or(Limits::default(), |bytes| Limits { bytes, ..Limits::default() });
-    // What the process takes at most is to be seen from outside: a second run would find memory
+    // The peak memory of the process is to be seen from outside: a second run would find memory
     // that the first one left.
     let times = if bytes.is_some() { 1 } else { 3 };
     let member = |(family, n): (&Family, u32)| {

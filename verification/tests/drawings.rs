@@ -45,7 +45,14 @@ fn a_crossing_is_drawn_as_states_and_on_request_as_a_net() {
 
 #[test]
 fn philosophers_are_no_state_machine_whatever_is_asked_for() {
-    all_formats("philosophers", &nets::philosophers(), Style::States);
+    let net = nets::philosophers();
+    let view = net.view();
+    for style in [Style::States, Style::Auto] {
+        let net = view.net();
+        assert_eq!(svg::write(&net, style), svg::write(&net, Style::Net));
+        assert_eq!(dot::write(&net, style), dot::write(&net, Style::Net));
+        assert_eq!(mermaid::write(&net, style), mermaid::write(&net, Style::Net));
+    }
 }
 
 #[test]
@@ -102,7 +109,7 @@ fn both_values_of_a_flag_on_one_line_are_one_label() {
     it.step(here, here, "light", &[]).line = line;
     it.net.transitions[1] = it.net.transitions[1].clone().read(lit, 1);
     assert_eq!(dot_edges(&it.net), ["start -> p0;", "p0 -> p0 [label=\"light / lit := true\"];"]);
-    // What depends on the flag beside the flag itself keeps the two apart.
+    // A transition that depends on the flag beside the flag itself keeps the two apart.
     it.net.transitions[1] = it.net.transitions[1].clone().give(other, 1);
     let apart = r#"p0 -> p0 [label="light [!lit] / lit := true\nlight [lit] / other += 1"];"#;
     it.net.places[other.0 as usize].bound = 5;
@@ -142,7 +149,7 @@ fn counters_read_as_comparisons() {
 }
 
 #[test]
-fn what_breaks_the_state_machine_is_drawn_as_a_net() {
+fn a_net_that_is_no_state_machine_is_drawn_as_a_net() {
     let is_states = |net: &OwnedNet| {
         mermaid::write(&net.view().net(), Style::States).starts_with("stateDiagram")
     };
@@ -215,9 +222,10 @@ fn a_large_net_has_few_bars_with_every_transition_at_one_of_them() {
         let is_made = it.name != line;
         assert!(!is_made || !text.contains(&format!("strong\">{}</tspan>", it.name)));
     }
-    golden("ace_selection.svg", &text);
-    golden("ace_selection.dot", &dot::write(net, Style::Auto));
-    golden("ace_selection.mmd", &mermaid::write(net, Style::Auto));
+    let lines = net.transitions.iter().map(|it| it.name.split('.').next().unwrap());
+    for text in [dot::write(net, Style::Auto), mermaid::write(net, Style::Auto)] {
+        assert!(lines.clone().all(|it| text.contains(it)), "{text}");
+    }
 }
 
 /// Well-formed, ids once, all shapes in the picture, no two nodes on each other. Returns the
@@ -386,7 +394,7 @@ fn a_net_beyond_all_limits_is_drawn() {
 }
 
 #[test]
-fn graphviz_reads_what_is_written() {
+fn graphviz_reads_the_written_graphs() {
     if !cotama_golden::has_tool("dot", "DOT files") {
         return;
     }

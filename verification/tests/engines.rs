@@ -8,6 +8,7 @@ mod forged;
 mod numbered;
 mod properties;
 mod reductions;
+mod special;
 mod statespace;
 mod structural;
 mod stubborn;

@@ -62,7 +62,7 @@ system! {
 
 type Shop = shop::Player;
 
-/// What a player holds in a place of the flat net.
+/// Returns the tokens of a player in a place of the flat net.
 fn tokens(player: &Shop, name: &str) -> u32 {
     let (component, rest) = name.split_once('.').unwrap();
     let at = shop::SYSTEM.components.iter().position(|it| it.name == component).unwrap();
@@ -171,7 +171,7 @@ system! {
 }
 
 #[test]
-fn the_complement_of_the_owner_follows_what_a_guest_does() {
+fn the_complement_of_the_owner_follows_a_change_by_a_guest() {
     let net = flat(&helped::SYSTEM).unwrap();
     let pt = Pt::from(&net.view().net());
     let (mut reached, mut next) = (HashSet::from([pt.initial.clone()]), vec![pt.initial.clone()]);

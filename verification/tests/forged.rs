@@ -10,11 +10,18 @@ use cotama_verification::certificate::{
 fn net(places: &[(&str, u32)], take: &[(&str, u32)], give: &[(&str, u32)]) -> Net {
     let arcs =
         |list: &[(&str, u32)]| list.iter().map(|it| (it.0.to_owned(), it.1)).collect::<Vec<_>>();
-    let fire = Transition { name: "fire".to_owned(), take: arcs(take), give: arcs(give) };
+    let fire = Transition {
+        name: "fire".to_owned(),
+        take: arcs(take),
+        give: arcs(give),
+        inhibit: vec![],
+        reset: vec![],
+        priority: 0,
+    };
     Net { name: "net".to_owned(), places: arcs(places), transitions: vec![fire] }
 }
 
-/// What is wrong with a certificate.
+/// Returns the defect of a certificate.
 fn refusal(net: Net, question: Question, verdict: bool, evidence: Evidence) -> String {
     let (schema, property) = (SCHEMA.to_owned(), "forged".to_owned());
     let certificate = Certificate { schema, net, property, question, verdict, evidence };
@@ -114,7 +121,9 @@ fn a_place_that_is_not_there_does_not_grow() {
 fn a_next_marking_and_the_next_one_of_a_run_have_texts_of_their_own() {
     let yes = || Box::new(Formula::And(Vec::new()));
     let next = Formula::Exists(Box::new(Formula::Next(yes())));
-    assert_eq!(next.to_string(), "E(X(true))");
+    // `E(X(true))` is `EX true` in the language of properties, and this is not.
+    assert_eq!(next.to_string(), "!(A(!(X(true))))");
+    assert_eq!(Formula::All(Box::new(Formula::Next(yes()))).to_string(), "!(E(!(X(true))))");
     assert_eq!(Formula::ExistsNext(yes()).to_string(), "EX (true)");
     assert_eq!(Formula::AllNext(yes()).to_string(), "AX (true)");
 }

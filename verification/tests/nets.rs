@@ -6,6 +6,7 @@ mod examples;
 mod exports;
 mod flat;
 mod pnml_broken;
+mod pnml_kinds;
 mod pnml_public;
 mod pnml_read;
 mod pnml_round_trip;

@@ -1,4 +1,4 @@
-//! What is read from PNML files of other tools, and from damaged ones.
+//! Reading PNML files of other tools, and damaged ones.
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{PlaceId, Within};
@@ -172,7 +172,7 @@ fn parts_of_other_tools_comments_and_a_plain_doctype_are_skipped() {
 #[test]
 fn the_ids_of_the_file_are_known() {
     let text = file("<place id='p7'><name><text>idle</text></name></place><transition id='t7'/>");
-    let Imported { net, place_ids, transition_ids } =
+    let Imported { net, place_ids, transition_ids, .. } =
         pnml::read_within("net.pnml", text.as_bytes(), Limits::default()).unwrap();
     assert_eq!(place_names(&net), ["idle"]);
     assert_eq!((place_ids, transition_ids), (vec!["p7".to_owned()], vec!["t7".to_owned()]));
@@ -233,7 +233,7 @@ impl Dice {
 }
 
 #[test]
-fn damaged_files_never_panic_and_say_where() {
+fn damaged_files_never_panic_and_get_a_position() {
     let written =
         std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/pnml/door.pnml")).unwrap();
     let tina = pnml::write_for_tina(&read_bytes(&written).view().net()).into_bytes();

@@ -1,4 +1,4 @@
-//! What is written is PNML, and reads back as the same net.
+//! Written nets are PNML, and read back as the same net.
 
 use cotama_core::net::owned::{
     OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition,

@@ -4,6 +4,7 @@ use crate::exit::Failure;
 use crate::file_errors::FileErrors;
 use crate::input;
 use cotama_core::problem::{Candidate, Problem};
+use cotama_verification::formats::json::{Whole, Wrong, read_object};
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, SeqAccess, Visitor};
 use std::fmt;
 use std::marker::PhantomData;
@@ -24,8 +25,8 @@ struct File {
 
 #[derive(serde::Deserialize)]
 struct Limits {
-    duration_ms: u64,
-    energy_mj: u64,
+    duration_ms: Whole<u64>,
+    energy_mj: Whole<u64>,
 }
 
 /// Quality, duration, energy.
@@ -44,8 +45,8 @@ impl<'de> Deserialize<'de> for Triple {
 
             fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Triple, A::Error> {
                 let mut next = |before: usize| {
-                    list.next_element::<u32>()?
-                        .ok_or_else(|| A::Error::invalid_length(before, &Three))
+                    let number = list.next_element::<Whole<u32>>()?.map(|it| it.0);
+                    number.ok_or_else(|| A::Error::invalid_length(before, &Three))
                 };
                 let triple = Triple(next(0)?, next(1)?, next(2)?);
                 match list.next_element::<IgnoredAny>()? {
@@ -59,7 +60,7 @@ impl<'de> Deserialize<'de> for Triple {
     }
 }
 
-/// What a list is, and how long it may be.
+/// A list of the instance, with its name and its largest length.
 trait List {
     const WHAT: &'static str;
     const LEAST: usize;
@@ -122,16 +123,18 @@ impl<'de, T: Deserialize<'de>, L: List> Deserialize<'de> for Bounded<T, L> {
 impl Instance {
     /// Reads an instance; `name` is that of its file.
     pub(crate) fn parse(name: &str, text: &str) -> Result<Self, Failure> {
-        let file: File = serde_json::from_str(text).map_err(|error| {
-            let said = error.to_string();
-            let what = said.rsplit_once(" at line ").map_or(said.as_str(), |(what, _)| what);
-            let (line, column) = (error.line(), error.column().max(1));
-            FileErrors::at(input::name(name), text.to_owned(), line, column, what.to_owned()).help(
-                "an instance is \
-                 {\"limits\":{\"duration_ms\":D,\"energy_mj\":E},\
-                 \"activities\":[[[quality,duration_ms,energy_mj],...],...]}, \
+        let file: File = read_object(text).map_err(|error| {
+            let Wrong { line, column, message, help, .. } = error;
+            let more = help.map_or_else(String::new, |it| it + "; ");
+            let is_fraction = message.starts_with("a whole number is needed here, not");
+            let factor = if is_fraction { "multiply all by the same factor; " } else { "" };
+            let errors = FileErrors::at(input::name(name), text.to_owned(), line, column, message);
+            errors.help(format!(
+                "{more}{factor}an instance is \
+                 {{\"limits\":{{\"duration_ms\":D,\"energy_mj\":E}},\
+                 \"activities\":[[[quality,duration_ms,energy_mj],...],...]}}, \
                  in whole numbers from 0; those of a candidate are below 2^32",
-            )
+            ))
         })?;
         let candidate = |(id, &Triple(quality, duration, energy)): (u16, &Triple)| Candidate {
             cost: [duration, energy],
@@ -142,7 +145,7 @@ impl Instance {
             (0..).zip(&activity.items).map(candidate).collect()
         };
         Ok(Self {
-            limits: [file.limits.duration_ms, file.limits.energy_mj],
+            limits: [file.limits.duration_ms.0, file.limits.energy_mj.0],
             activities: file.activities.items.into_iter().map(candidates).collect(),
         })
     }

@@ -12,7 +12,7 @@ pub(crate) struct AssignAnswer {
     /// The name of the instance.
     pub(crate) name: String,
     pub(crate) status: AssignStatus,
-    /// What the assignment costs; none where there is none.
+    /// Cost of the assignment; none where there is none.
     pub(crate) cost: Option<u64>,
     /// So many parts make a unit of cost.
     pub(crate) cost_denominator: u32,
@@ -20,17 +20,17 @@ pub(crate) struct AssignAnswer {
     pub(crate) lower_bound: Option<u64>,
     /// The tasks that are done, in the order of the instance.
     pub(crate) assignment: Vec<DoneRow>,
-    /// Who competes for whom, where there is no assignment.
+    /// Tasks and robots in conflict, where there is no assignment.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) why_infeasible: Option<WhyInfeasible>,
-    /// What proves the answer.
+    /// Proof of the answer.
     pub(crate) certificate: Certificate,
-    /// What greedy rounds come to, if that was asked; none where the team is too large for them.
+    /// Result of greedy rounds, if that was asked; none where the team is too large for them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) greedy: Option<GreedyRow>,
 }
 
-/// What is known.
+/// Status of the answer.
 #[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum AssignStatus {
@@ -50,7 +50,7 @@ pub(crate) struct DoneRow {
     pub(crate) plan: Option<String>,
     /// The robots, in the order of the plan's roles.
     pub(crate) robots: Vec<String>,
-    /// What the task costs.
+    /// Cost of the task.
     pub(crate) cost: u64,
 }
 
@@ -62,7 +62,7 @@ pub(crate) struct WhyInfeasible {
     pub(crate) robots: Vec<String>,
 }
 
-/// What proves an answer; all but a search can be added again by hand.
+/// A proof of an answer; all but a search can be added up again by hand.
 #[derive(Debug, JsonSchema, Serialize)]
 #[serde(tag = "by", rename_all = "snake_case")]
 pub(crate) enum Certificate {
@@ -73,7 +73,7 @@ pub(crate) enum Certificate {
         robot_prices: Vec<u64>,
     },
     /// Why no plan of the only task is better; one for each plan.
-    Plans { plans: Vec<PlanRow> },
+    Plans { plans: Vec<ProofRow> },
     /// The tasks of `why_infeasible` are more than the robots that can do any of them.
     Hall,
     /// A search left nothing that is better than the lower bound, or that serves all tasks.
@@ -84,15 +84,15 @@ pub(crate) enum Certificate {
 
 /// Why a plan costs no less.
 #[derive(Debug, Default, JsonSchema, Serialize)]
-pub(crate) struct PlanRow {
+pub(crate) struct ProofRow {
     pub(crate) plan: String,
-    /// What the task costs by this plan; none where it cannot be carried out.
+    /// Cost of the task by this plan; none where it cannot be carried out.
     pub(crate) cost: Option<u64>,
-    /// Of a sum or mean: one for each robot, in units. Each role costs at least its cheapest robot
-    /// with the price of that robot; all of these less all prices are what the roles cost.
+    /// For a sum or mean: one price for each robot, in units. Each role costs at least its cheapest
+    /// robot with the price of that robot; all of these less all prices are what the roles cost.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) robot_prices: Option<Vec<u64>>,
-    /// Of a maximum, in units: below it `roles` are more than `robots`.
+    /// For a maximum, in units: with all costs below this, `robots` are too few for `roles`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) threshold: Option<u32>,
     /// Roles that are more than the robots that can fill any of them, below the threshold if there
@@ -104,10 +104,10 @@ pub(crate) struct PlanRow {
     pub(crate) robots: Option<Vec<String>>,
 }
 
-/// What greedy rounds come to.
+/// The result of greedy rounds.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct GreedyRow {
-    /// What the tasks that are done cost, and to leave the others undone.
+    /// Cost of the tasks that are done, and of leaving the others undone.
     pub(crate) cost: u64,
     /// How many tasks that must be done are not; they cost nothing here.
     pub(crate) unserved: usize,

@@ -16,15 +16,18 @@ pub(crate) struct CampaignAnswer {
     pub(crate) seed: u64,
     /// How plans were drawn.
     pub(crate) strategy: String,
-    /// Who planned.
+    /// How plans were adapted.
     pub(crate) policy: String,
+    /// Planner and adaptation, in words.
+    pub(crate) planner: String,
     /// Which part of the campaign this is, as `2/3`; none for the whole.
     pub(crate) shard: Option<String>,
     pub(crate) outcomes: Outcomes,
     /// How many runs broke a requirement.
     pub(crate) failing: u64,
     /// The probability that a run breaks a requirement, of plans drawn as these were; none where
-    /// they were not drawn independently.
+    /// they were not drawn independently. After a sequential test the interval is one that holds
+    /// whenever runs end.
     pub(crate) failure_probability: Option<Measured>,
     /// The same for each requirement.
     pub(crate) requirements: Vec<RequirementRow>,
@@ -34,7 +37,7 @@ pub(crate) struct CampaignAnswer {
     pub(crate) shrunk: u64,
     /// How many runs that took in all.
     pub(crate) shrinking_runs: u64,
-    /// What a sequential test came to.
+    /// Decision of a sequential test.
     pub(crate) decision: Option<DecisionRow>,
     /// A digest of the lines of results: equal for equal results.
     pub(crate) digest: String,
@@ -53,7 +56,8 @@ pub(crate) struct Outcomes {
     pub(crate) failed: u64,
 }
 
-/// An estimate with its interval: exact (Clopper and Pearson) for probabilities.
+/// An estimate with its interval: exact (Clopper and Pearson) for probabilities after a number of
+/// runs that was fixed before.
 #[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
 pub(crate) struct Measured {
     pub(crate) estimate: f64,
@@ -63,7 +67,7 @@ pub(crate) struct Measured {
     pub(crate) confidence: f64,
 }
 
-/// What must hold.
+/// A requirement of every run, with its counts.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct RequirementRow {
     /// As on the command line.
@@ -92,7 +96,7 @@ pub(crate) struct FailureRow {
     pub(crate) scenario: String,
 }
 
-/// What a sequential test came to.
+/// The decision of a sequential test.
 #[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
 pub(crate) struct DecisionRow {
     /// `at_most`, `more`, or `undecided`.
@@ -104,6 +108,19 @@ pub(crate) struct DecisionRow {
     pub(crate) confidence: f64,
     /// After how many runs.
     pub(crate) runs: u64,
+    /// Whether every plan that there is was run and counted: then it is certain.
+    pub(crate) exact: bool,
+}
+
+/// A mean over the plans that were run, with the interval for all that are drawn so; no interval
+/// where plans were not drawn independently.
+#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+pub(crate) struct Mean {
+    pub(crate) estimate: f64,
+    pub(crate) low: Option<f64>,
+    pub(crate) high: Option<f64>,
+    /// How often such an interval holds the truth, at least.
+    pub(crate) confidence: Option<f64>,
 }
 
 /// A policy over the same plans.
@@ -111,14 +128,15 @@ pub(crate) struct DecisionRow {
 pub(crate) struct PolicyRow {
     pub(crate) policy: &'static str,
     pub(crate) outcomes: Outcomes,
-    /// The probability that a mission is completed.
-    pub(crate) success: Measured,
-    /// How much more likely it is completed than with the first policy; none for the first.
+    /// The probability that a mission is completed; none where plans were not drawn independently.
+    pub(crate) success: Option<Measured>,
+    /// How much more likely it is completed than with the first policy; none for the first, nor
+    /// where plans were not drawn independently.
     pub(crate) success_difference: Option<Measured>,
     /// How likely so large a difference is if there is none (`McNemar`'s exact test).
     pub(crate) p_value: Option<f64>,
-    pub(crate) duration_ms: Measured,
-    pub(crate) energy_mj: Measured,
-    pub(crate) operator_requests: Measured,
-    pub(crate) replans: Measured,
+    pub(crate) duration_ms: Mean,
+    pub(crate) energy_mj: Mean,
+    pub(crate) operator_requests: Mean,
+    pub(crate) replans: Mean,
 }

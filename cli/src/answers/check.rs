@@ -15,17 +15,27 @@ pub(crate) struct CheckAnswer {
     /// The unit of `min` and `max` and of the times of runs: `ms`; null where there is no time, and
     /// of a file of TINA, which names none.
     pub(crate) time_unit: Option<&'static str>,
-    /// What it means that the nets of a system work together; null of one net.
+    /// Meaning of a system of nets; null of one net.
     pub(crate) semantics: Option<Semantics>,
-    /// What to know about the model as it was checked.
+    /// Notes on the model as it was checked.
     pub(crate) notes: Vec<String>,
     /// Laws of the model that are checked only while a program is compiled.
     pub(crate) left_out: Vec<String>,
+    /// Only there if the check was interrupted: then results are of its first properties alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) interrupted: Option<Interrupted>,
     /// An answer to each property, in their order.
     pub(crate) results: Vec<ResultRow>,
-    /// What else is known of the requirements of a system.
+    /// Requirements of a system that are known by other means.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) otherwise: Vec<OtherwiseRow>,
+}
+
+/// A check that was interrupted.
+#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+pub(crate) struct Interrupted {
+    /// How many properties were asked in all.
+    pub(crate) asked: usize,
 }
 
 /// A requirement, or a part of one, that is no question to a checker.
@@ -44,7 +54,7 @@ pub(crate) struct ResultRow {
     /// The number of a requirement.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) id: Option<&'static str>,
-    /// What it requires, in a sentence.
+    /// The requirement in a sentence.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) sentence: Option<&'static str>,
     /// The question, written out.
@@ -53,7 +63,7 @@ pub(crate) struct ResultRow {
     pub(crate) verdict: VerdictName,
     /// Why it is unknown, in words.
     pub(crate) reason: Option<String>,
-    /// What can be done about it, for people.
+    /// Remedy, for people.
     #[serde(skip)]
     pub(crate) way_out: Option<&'static str>,
     /// The most tokens, of `bounds(...)`.
@@ -63,16 +73,16 @@ pub(crate) struct ResultRow {
     pub(crate) response: Option<ResponseRow>,
     /// The engine that decided.
     pub(crate) engine: String,
-    /// What led to the answer, in order.
+    /// Techniques that led to the answer, in order.
     pub(crate) techniques: Vec<String>,
     /// How many markings, or classes of a time net, were met by the engine that met most.
     pub(crate) states: u64,
-    /// What `cotama verify` could check again.
+    /// Evidence that `cotama verify` could check again.
     pub(crate) evidence: EvidenceName,
     /// The file that holds it.
     pub(crate) certificate: Option<String>,
     pub(crate) seconds: f64,
-    /// That it holds for a reason that is none, in words, if that was found.
+    /// Reason why the property holds vacuously, in words, if one was found.
     pub(crate) vacuous: Option<String>,
     /// How it came about, in a line.
     pub(crate) cause: Option<String>,
@@ -80,11 +90,11 @@ pub(crate) struct ResultRow {
     pub(crate) trace: Option<Vec<FiringRow>>,
     /// How the run goes on.
     pub(crate) rest: Option<RestRow>,
-    /// What no run uses, where a property is false because of it.
+    /// Parts that no run uses, where a property is false because of it.
     pub(crate) unused: Option<UnusedRow>,
 }
 
-/// What no run uses.
+/// Parts that no run uses.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub(crate) struct UnusedRow {
     /// Transitions that never fire.
@@ -112,7 +122,7 @@ pub(crate) struct ResponseRow {
     pub(crate) max: Option<Amount>,
 }
 
-/// What is known of a property.
+/// The verdict on a property.
 #[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum VerdictName {
@@ -137,7 +147,7 @@ pub(crate) enum Infinite {
     Inf,
 }
 
-/// What the evidence for a verdict is.
+/// The kind of evidence for a verdict.
 #[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum EvidenceName {
@@ -182,7 +192,7 @@ pub(crate) struct FiringRow {
     /// The event that it answers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) event: Option<String>,
-    /// What it emits.
+    /// Outputs emitted.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) outputs: Vec<String>,
     /// When, in `time_unit`, as an exact decimal; of time nets.
@@ -220,9 +230,9 @@ pub(crate) struct StatespaceAnswer {
     pub(crate) model: String,
     /// Whether transitions fire within their intervals; otherwise in any order, at any time.
     pub(crate) timed: bool,
-    /// What it means that the nets of a system work together; null of one net.
+    /// Meaning of a system of nets; null of one net.
     pub(crate) semantics: Option<Semantics>,
-    /// What to know about the model as it was explored.
+    /// Notes on the model as it was explored.
     pub(crate) notes: Vec<String>,
     /// Reachable markings, of a time net state classes. This and what follows is null where it is
     /// not known or has no end.
@@ -249,12 +259,12 @@ pub(crate) struct StatespaceAnswer {
     pub(crate) classes: Option<String>,
     /// Firings between them, of a time net.
     pub(crate) edges: Option<String>,
-    /// What is counted in rounds, of a system with that meaning.
+    /// Figures in rounds, of a system with that meaning.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) rounds: Option<RoundsRow>,
     /// How tokens grow without end.
     pub(crate) growth: Option<GrowthRow>,
-    /// What was met.
+    /// Figures of the search.
     pub(crate) explored: ExploredRow,
     /// Why that is not all, in words.
     pub(crate) limit: Option<String>,
@@ -274,7 +284,7 @@ pub(crate) struct RoundsRow {
     pub(crate) edges: String,
 }
 
-/// What a search met.
+/// The figures of a search.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct ExploredRow {
     pub(crate) states: String,
@@ -302,10 +312,10 @@ pub(crate) struct VerifyAnswer {
     pub(crate) question: Option<String>,
     /// The verdict that is shown.
     pub(crate) verdict: Option<bool>,
-    /// What shows it, in words.
+    /// Evidence, in words.
     pub(crate) evidence: Option<String>,
-    /// Where in the certificate something is wrong.
+    /// Position of the error in the certificate.
     pub(crate) at: Option<String>,
-    /// What is wrong there.
+    /// Cause of the error.
     pub(crate) message: Option<String>,
 }

@@ -8,27 +8,32 @@ use serde::Serialize;
 pub(crate) struct ConformAnswer {
     #[schemars(extend("const" = "cotama/conform/1"))]
     pub(crate) schema: &'static str,
-    /// What the command line calls the net or system.
+    /// Name of the net or system on the command line.
     pub(crate) model: String,
     /// The file of the recorded run.
     pub(crate) trace: String,
-    /// Whether the recorded run is a run of the model.
-    pub(crate) conforms: bool,
+    /// Whether the recorded run is a run of the model; none when too many states were possible to
+    /// say so.
+    pub(crate) conforms: Option<bool>,
     /// How many lines say something.
     pub(crate) lines: u64,
     /// How many events were told again.
     pub(crate) events: u64,
     /// How many recorded firings are those of the model.
     pub(crate) fired: u64,
+    /// How many recorded outputs are those of the model.
+    pub(crate) outputs: u64,
     /// How many rounds of a system took place.
     pub(crate) rounds: u64,
     /// The date up to which the recording is as the model.
     pub(crate) until_ms: u64,
-    /// Where it departs from the model; none when it conforms.
+    /// Departure from the model; none when the recording conforms.
     pub(crate) departs: Option<DepartsRow>,
+    /// The line at which too many states were possible; none when it was not so.
+    pub(crate) unknown_from: Option<u64>,
 }
 
-/// Where a recording departs from a model.
+/// The departure of a recording from a model.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct DepartsRow {
     /// The line of the file, from 1.
@@ -36,11 +41,11 @@ pub(crate) struct DepartsRow {
     pub(crate) time_ms: u64,
     /// Why it cannot be so.
     pub(crate) reason: String,
-    /// What could have been recorded there.
+    /// Records allowed there.
     pub(crate) allowed: AllowedRow,
 }
 
-/// What could have been recorded.
+/// The records allowed.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct AllowedRow {
     /// The transitions that could fire, or had to.
@@ -54,7 +59,7 @@ pub(crate) struct AllowedRow {
 pub(crate) struct MayFireRow {
     pub(crate) transition: String,
     pub(crate) earliest_ms: u64,
-    /// None: at any time after that.
+    /// Latest time in ms; none: at any time after that.
     pub(crate) latest_ms: Option<u64>,
 }
 

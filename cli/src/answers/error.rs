@@ -1,4 +1,4 @@
-//! What stands in place of an answer when a command cannot do its work.
+//! The answer in place of another one when a command cannot do its work.
 
 use crate::exit::Failure;
 use crate::file_errors::FileError;
@@ -10,7 +10,7 @@ use serde::Serialize;
 pub(crate) struct ErrorAnswer {
     #[schemars(extend("const" = "cotama/error/1"))]
     pub(crate) schema: &'static str,
-    /// What is wrong.
+    /// Cause of the error.
     pub(crate) message: String,
     /// The file in which it is wrong, or that is wrong as a whole.
     pub(crate) file: Option<String>,
@@ -18,9 +18,13 @@ pub(crate) struct ErrorAnswer {
     pub(crate) line: Option<u64>,
     /// In characters, from 1.
     pub(crate) column: Option<u64>,
-    /// What to do about it.
+    /// Remedy.
     pub(crate) help: Option<String>,
-    /// What else is wrong in the file, by place.
+    /// How often the file has an error of this cause, if more than once; the place is that of the
+    /// first.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) times: Option<u64>,
+    /// Further errors in the file, by place.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) more: Vec<ErrorRow>,
     /// How many further errors are left out.
@@ -31,20 +35,25 @@ pub(crate) struct ErrorAnswer {
 /// A further error of the same file.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct ErrorRow {
-    /// What is wrong.
+    /// Cause of the error.
     pub(crate) message: String,
     /// From 1.
     pub(crate) line: u64,
     /// In characters, from 1.
     pub(crate) column: u64,
-    /// What to do about it.
+    /// Remedy.
     pub(crate) help: Option<String>,
+    /// How often the file has an error of this cause, if more than once; the place is that of the
+    /// first.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) times: Option<u64>,
 }
 
 impl From<&FileError> for ErrorRow {
     fn from(error: &FileError) -> Self {
         let (line, column) = (error.at.line as u64, error.at.column as u64);
-        Self { message: error.message.clone(), line, column, help: error.help.clone() }
+        let times = Some(error.times as u64).filter(|&it| it > 1);
+        Self { message: error.message.clone(), line, column, help: error.help.clone(), times }
     }
 }
 
@@ -57,6 +66,7 @@ impl From<&Failure> for ErrorAnswer {
             line: None,
             column: None,
             help: None,
+            times: None,
             more: Vec::new(),
             omitted: None,
         };
@@ -67,12 +77,13 @@ impl From<&Failure> for ErrorAnswer {
             Failure::Text(errors) => {
                 let file = Some(errors.source.clone());
                 let mut rows = errors.errors.iter().map(ErrorRow::from);
-                let Some(ErrorRow { message, line, column, help }) = rows.next() else {
+                let Some(ErrorRow { message, line, column, help, times }) = rows.next() else {
                     return Self { file, ..nothing };
                 };
                 let (line, column) = (Some(line), Some(column));
                 let omitted = Some(errors.omitted as u64).filter(|&it| it > 0);
-                Self { message, file, line, column, help, more: rows.collect(), omitted, ..nothing }
+                let more = rows.collect();
+                Self { message, file, line, column, help, times, more, omitted, ..nothing }
             }
         }
     }

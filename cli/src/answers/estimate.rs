@@ -13,9 +13,9 @@ pub(crate) struct EstimateAnswer {
     pub(crate) schema: &'static str,
     /// The name or path of the model.
     pub(crate) model: String,
-    /// What it means that its nets work together; of a system.
+    /// Meaning of a system of nets; of a system alone.
     pub(crate) semantics: Option<Semantics>,
-    /// What to know about the model as it is asked.
+    /// Notes on the model as it is asked.
     pub(crate) notes: Vec<String>,
     /// How many runs were drawn.
     pub(crate) runs: u64,
@@ -30,25 +30,25 @@ pub(crate) struct EstimateAnswer {
     pub(crate) seconds: f64,
 }
 
-/// What is known of a property.
+/// The estimate of a property.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct EstimateRow {
     /// As on the command line.
     pub(crate) property: String,
-    /// What one of the runs shows for certain; else it is not known.
+    /// Verdict that one of the runs shows for certain; else unknown.
     pub(crate) verdict: VerdictName,
     /// The probability that a run of so many steps is as the property says, where each enabled
     /// transition is equally likely to fire.
     pub(crate) probability: Measured,
     /// How many runs were so.
     pub(crate) holding: u64,
-    /// Of how many runs more steps could have shown otherwise.
+    /// Number of runs that could have shown otherwise with more steps.
     pub(crate) open: u64,
     /// The number of the shortest run that shows the verdict.
     pub(crate) run: Option<u64>,
     /// Why it shows it.
     pub(crate) cause: Option<String>,
-    /// What fires in it.
+    /// Firings of the run.
     pub(crate) trace: Option<Vec<FiringRow>>,
     /// How it goes on.
     pub(crate) rest: Option<RestRow>,

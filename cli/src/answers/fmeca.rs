@@ -9,7 +9,7 @@ use serde::Serialize;
 pub(crate) struct FmecaAnswer<'a> {
     #[schemars(extend("const" = "cotama/fmeca/1"))]
     pub(crate) schema: &'static str,
-    /// What it is about.
+    /// Subject of the analysis.
     pub(crate) title: &'a str,
     /// The time of operation for which occurrence classes count failures, in hours.
     pub(crate) period_h: u32,
@@ -32,9 +32,10 @@ pub(crate) struct CountsRow {
     pub(crate) functions: usize,
     /// Rows that always raise a flag.
     pub(crate) detected: usize,
-    /// Those of them that are reported to the contextual supervisor, of the delivery robot.
+    /// Detectable failure modes that are reported to the contextual supervisor, of the delivery
+    /// robot.
     pub(crate) reported: usize,
-    /// Those of them that are not, with a reaction of their own.
+    /// Detectable failure modes that are not reported, with a reaction of their own.
     pub(crate) recorded: usize,
     /// Rows that nothing of the architecture sees, declared as such with a reason.
     pub(crate) undetectable: usize,
@@ -56,12 +57,12 @@ pub(crate) struct FmecaRow<'a> {
     pub(crate) severity_autonomous: &'a str,
     /// While the operator drives; null if the file makes no difference.
     pub(crate) severity_operator: Option<&'a str>,
-    /// Who gets its event while the robot drives itself; of the delivery robot: `adapter`, `local`
-    /// or `global`.
+    /// Receiver of its event while the robot drives itself; of the delivery robot: `adapter`,
+    /// `local` or `global`.
     pub(crate) class: &'a str,
     /// `permanent`, `transient` or `intermittent`; null if the file does not say.
     pub(crate) persistence: Option<&'a str>,
-    /// What is lost, in words.
+    /// Functions lost with it, in words.
     pub(crate) loss: &'a str,
     /// Modules that are faulty with it; this and what else is about modules is of the delivery
     /// robot only.
@@ -72,7 +73,7 @@ pub(crate) struct FmecaRow<'a> {
     pub(crate) resources_lost: Vec<&'a str>,
     /// Modules that are unavailable after it, those that need faulty or lost ones among them.
     pub(crate) modules_unavailable: Vec<&'a str>,
-    /// Who sees it, in words.
+    /// Observer that sees it, in words.
     pub(crate) observer: &'a str,
     /// How it is seen, in words.
     pub(crate) detection: &'a str,
@@ -81,9 +82,9 @@ pub(crate) struct FmecaRow<'a> {
     pub(crate) flags_always: Vec<&'a str>,
     /// Flags that it may raise too.
     pub(crate) flags_sometimes: Vec<&'a str>,
-    /// It can only happen, or only matters, while these modules are available.
+    /// Modules that have to be available for the failure to happen, or to matter.
     pub(crate) only_with_modules: Vec<&'a str>,
-    /// It can only happen while these modules are not.
+    /// Modules that have to be unavailable for the failure to happen.
     pub(crate) only_without_modules: Vec<&'a str>,
     /// Why nothing sees it; null if something does, or no reason is stated.
     pub(crate) undetectable_reason: Option<&'a str>,
@@ -98,7 +99,7 @@ pub(crate) struct FmecaRow<'a> {
     /// How the fault is injected in simulation.
     pub(crate) injection: &'a str,
     pub(crate) criticality: CriticalityRow,
-    /// What becomes of it in the decisional level of the robot, or who gets its event, in words.
+    /// Reaction of the robot's decisional level, or the receiver of its event, in words.
     #[serde(skip)]
     pub(crate) event: String,
 }
@@ -148,12 +149,12 @@ pub(crate) struct Diagnosability<'a> {
     pub(crate) statuses: Vec<StatusRow<'a>>,
     /// Observations that the architecture does not make.
     pub(crate) probes: Vec<ProbeRow<'a>>,
-    /// Of the delivery robot only.
+    /// Ambiguous case of the failure mode; of the delivery robot only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) ambiguous_case: Option<AmbiguousCase<'a>>,
 }
 
-/// What can be told in one status of the robot.
+/// The diagnosability in one status of the robot.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub(crate) struct StatusRow<'a> {
     /// As `sonar lost`; of a file there is one, `sound`.
@@ -214,7 +215,7 @@ pub(crate) struct PairRow<'a> {
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub(crate) struct ProbeRow<'a> {
     pub(crate) name: &'a str,
-    /// Who would observe what.
+    /// Observer and observation, in words.
     pub(crate) doc: &'a str,
     /// The failure modes that it would show.
     pub(crate) shows: Vec<&'a str>,

@@ -12,21 +12,22 @@ pub(crate) struct ModelsAnswer {
     pub(crate) models: Vec<ModelRow>,
 }
 
-/// What is known of a model.
+/// A model.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct ModelRow {
-    /// What other commands know it by; of a family without its number.
+    /// Name for other commands; of a family without its number.
     pub(crate) name: String,
     pub(crate) kind: ModelKind,
-    /// What it is for.
+    /// Purpose of the model.
     pub(crate) description: String,
-    /// None of a family, before a number is chosen. In a system, shared places are counted once.
+    /// Number of places; none of a family, before a number is chosen. In a system, shared places
+    /// are counted once.
     pub(crate) places: Option<u64>,
-    /// None of a family.
+    /// Number of transitions; none of a family.
     pub(crate) transitions: Option<u64>,
     /// Transitions with a time interval; none of a family.
     pub(crate) timed: Option<u64>,
-    /// Its reachable markings, if they were explored while compiling.
+    /// Reachable markings, if they were explored while compiling.
     pub(crate) states: Option<u64>,
     /// The firings between these markings.
     pub(crate) firings: Option<u64>,
@@ -43,7 +44,7 @@ pub(crate) struct ModelRow {
     pub(crate) components: Vec<ComponentRow>,
 }
 
-/// What a model is.
+/// The kind of a model.
 #[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ModelKind {
@@ -55,7 +56,7 @@ pub(crate) enum ModelKind {
     System,
 }
 
-/// What is claimed of a net.
+/// A law claimed of a net.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
 pub(crate) struct LawRow {
     /// As `never_both(Closing, obstacle)`.
@@ -79,7 +80,7 @@ pub(crate) enum Shown {
 #[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
 pub(crate) struct SignalRow {
     pub(crate) name: String,
-    /// What it tells.
+    /// Meaning of the signal.
     pub(crate) doc: String,
 }
 
@@ -93,7 +94,7 @@ pub(crate) struct NumbersRow {
 /// A net of a system.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
 pub(crate) struct ComponentRow {
-    /// What the system calls it.
+    /// Name of the net in the system.
     pub(crate) name: String,
     /// The name of the net.
     pub(crate) net: String,
@@ -128,7 +129,7 @@ pub(crate) struct SimulateAnswer {
     pub(crate) enabled: Vec<EnabledRow>,
     /// The events that no transition would use at the end.
     pub(crate) unused: Vec<RefusalRow>,
-    /// What happens next by itself.
+    /// Next event by itself.
     pub(crate) deadline: Option<DeadlineRow>,
 }
 
@@ -190,7 +191,7 @@ pub(crate) struct EnabledRow {
     pub(crate) transition: String,
 }
 
-/// What happens next by itself.
+/// The next event by itself.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
 pub(crate) struct DeadlineRow {
     pub(crate) time_ms: u64,

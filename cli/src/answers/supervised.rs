@@ -4,18 +4,18 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// What the supervisors did.
+/// The actions of the supervisors.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct Supervised {
     /// The story in numbered points.
     pub(crate) points: Vec<Point>,
     /// The transitions that fired.
     pub(crate) fired: Vec<Fired>,
-    /// What became of each failure, in the order of their happening.
+    /// Failures with their consequences, in the order of their happening.
     pub(crate) failures: Vec<Failure>,
     /// Which configuration ran from when on.
     pub(crate) configurations: Vec<Configured>,
-    /// What the supervisors were told, one thing a round.
+    /// Events that the supervisors accepted, one a round.
     pub(crate) told: Vec<Told>,
 }
 
@@ -27,15 +27,15 @@ pub(crate) struct Point {
     pub(crate) number: usize,
     pub(crate) t_ms: u64,
     pub(crate) x_mm: u64,
-    /// What happened.
+    /// Event, in words.
     pub(crate) text: String,
-    /// What the observers found.
+    /// Finding of the observers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) found: Option<String>,
-    /// What was decided, and why.
+    /// Decision, with its reason.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) decided: Option<String>,
-    /// What the robot did.
+    /// Reaction of the robot.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) done: Option<String>,
     /// How far up the reaction went: `parameter`, `set`, `activity`, `objective`, `mission`.
@@ -55,7 +55,7 @@ pub(crate) struct Fired {
     pub(crate) cause: Option<u16>,
 }
 
-/// What became of a failure. Times are since the start.
+/// A failure and its consequences. Times are since the start.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct Failure {
     /// The row of the FMECA.
@@ -75,17 +75,17 @@ pub(crate) struct Failure {
     /// The report to the contextual supervisor.
     pub(crate) report: Option<String>,
     /// `weak`, `medium`, `hard` or `fatal`.
-    pub(crate) severity: Option<String>,
+    pub(crate) severity: Option<&'static str>,
     /// The class by severity.
-    pub(crate) by_severity: Option<String>,
+    pub(crate) by_severity: Option<&'static str>,
     /// The class by what is still available.
-    pub(crate) by_availability: Option<String>,
+    pub(crate) by_availability: Option<&'static str>,
     pub(crate) decided_ms: Option<u64>,
     /// `record`, `adapter`, `local` or `global`.
-    pub(crate) decision: Option<String>,
+    pub(crate) decision: Option<&'static str>,
     /// The event that the contextual supervisor sent.
     pub(crate) event: Option<String>,
-    /// Its transition.
+    /// Transition.
     pub(crate) transition: Option<String>,
     /// When a supervisor first acted on it.
     pub(crate) answered_ms: Option<u64>,
@@ -98,10 +98,10 @@ pub(crate) struct Failure {
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct Configured {
     pub(crate) t_ms: u64,
-    /// None when none runs.
+    /// Configuration; none when none runs.
     pub(crate) configuration: Option<String>,
     /// The autonomy mode.
-    pub(crate) mode: String,
+    pub(crate) mode: &'static str,
 }
 
 /// Something that the supervisors were told.

@@ -1,15 +1,16 @@
 //! The answer of `cotama run` for teams.
 
+use super::{RecordDifference, RecordedFailure};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The answer of `cotama run fleet` and `cotama run service`.
+/// The answer of `cotama run` and `cotama replay` for teams.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct TeamAnswer {
     #[schemars(extend("const" = "cotama/run-team/1"))]
     pub(crate) schema: &'static str,
-    /// `fleet` or `service`.
+    /// The name of the team: `fleet`, `service`, or that of a file.
     pub(crate) scenario: String,
     /// `completed` if all tasks are done, else `reported`; `failed` if something did not hold that
     /// must hold of every run.
@@ -24,20 +25,35 @@ pub(crate) struct TeamAnswer {
     /// Many runs, a row for each allocation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) compared: Option<Compared>,
+    /// Whether a run made again from its trace was the same in every record; none where no trace
+    /// was replayed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) identical: Option<bool>,
+    /// Whether the failure that a file of faults records comes back; none for what records none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) returns: Option<bool>,
+    /// The failure that a file of faults records, and what became of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) failure: Option<RecordedFailure>,
+    /// The first record of the trace that differs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) difference: Option<RecordDifference>,
 }
 
 /// One run.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct TeamRun {
     /// `optimal`, `rounds` or `one-by-one`.
-    pub(crate) allocation: &'static str,
+    pub(crate) allocation: String,
     pub(crate) done: u64,
     pub(crate) reported: u64,
     /// When the last task ended.
     pub(crate) duration_ms: u64,
     /// For how long robots worked, all together.
     pub(crate) robot_time_ms: u64,
-    /// The same, with the utility of tasks that are not done.
+    /// Energy that robots drew until the end, all together.
+    pub(crate) energy_mj: u64,
+    /// The robot time, with the utility of tasks that are not done.
     pub(crate) cost_ms: u64,
     /// From when a task became known until it was done, on average.
     pub(crate) mean_time_ms: u64,
@@ -49,14 +65,14 @@ pub(crate) struct TeamRun {
     /// Messages sent, by their kind.
     pub(crate) messages: BTreeMap<&'static str, u64>,
     pub(crate) messages_lost: u64,
-    /// Who was awarded what.
+    /// Awards of tasks to robots.
     pub(crate) awards: Vec<AwardRow>,
     /// Errors of robots in their tasks, by class.
-    pub(crate) errors: Vec<ErrorRow>,
-    /// Where the report is.
+    pub(crate) errors: Vec<TeamErrorRow>,
+    /// Path of the report.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) report: Option<String>,
-    /// Where the trace is.
+    /// Path of the trace.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) trace: Option<String>,
 }
@@ -70,13 +86,13 @@ pub(crate) struct AwardRow {
     pub(crate) plan: String,
     /// The robot of each role.
     pub(crate) robots: Vec<String>,
-    /// What each role is to cost.
+    /// Planned cost of each role, in ms.
     pub(crate) costs_ms: Vec<u32>,
 }
 
 /// An error.
 #[derive(Debug, JsonSchema, Serialize)]
-pub(crate) struct ErrorRow {
+pub(crate) struct TeamErrorRow {
     pub(crate) t_ms: u64,
     pub(crate) robot: String,
     pub(crate) task: String,

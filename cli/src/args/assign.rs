@@ -26,6 +26,10 @@ Instance:
 where there is none: all costs of the answer are in parts, D of which make a unit. `extra_cost` is \
 what a plan yields less than the best one.
 
+Of a team at work (`cotama-team/1`, which `cotama run` runs) all tasks are given out at once, as \
+if they were known at the start: each robot bids from its place, in ms. That a task comes later, \
+or after another one, is left out.
+
 Examples:
   $ echo '{\"format\": \"cotama-team-assignment/1\", \"name\": \"home\", \"kind\": \"single\", \
 \"cost_denominator\": 1, \"robots\": [\"anna\", \"ben\"], \"tasks\": [{\"name\": \"mop\", \
@@ -33,11 +37,13 @@ Examples:
 [null, 1]}]}' > home.json
   $ cotama assign home.json
   $ cotama assign home.json --greedy
-  $ cotama assign - --json < home.json";
+  $ cotama assign - --json < home.json
+  $ cotama assign service";
 
 #[derive(Args, Debug)]
 pub(crate) struct AssignArgs {
-    /// The instance, a JSON file, or `-`
+    /// The instance, a JSON file, or `-`; or a team at work, its file (TOML or JSON) or `service`
+    /// or `fleet`
     pub(crate) instance: String,
     /// The most steps of a search over all tasks at once
     #[arg(long, value_name = "N", default_value_t = STEPS)]

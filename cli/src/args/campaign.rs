@@ -1,11 +1,15 @@
 //! The command line of `cotama campaign`.
 
-use super::Json;
+use super::mission::objectives;
 use super::number::whole;
+use super::{AllocatorName, Json, Objective, STEPS};
+use crate::exit::Failure;
+use crate::mission;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
+use cotama_models::missions::Mission;
 use cotama_sim::campaign::requirement::Requirement;
-use cotama_sim::campaign::run::{MAX_FAULTS, MAX_RUNS, Shard};
+use cotama_sim::campaign::run::{MAX_FAULTS, MAX_RUNS, MAX_SHARDS, Shard};
 use cotama_sim::campaign::space::Rates;
 use cotama_sim::campaign::strategy::StrategyName;
 use cotama_sim::campaign::subject::Policy;
@@ -35,32 +39,46 @@ pub(crate) struct CampaignArgs {
     /// After `merge`: the folders of all shards
     #[arg(value_name = "DIR")]
     pub(crate) shards: Vec<PathBuf>,
-    /// How many missions are run
-    #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = whole(1, MAX_RUNS))]
-    pub(crate) runs: u64,
+    /// How many missions are run [default: 1000]
+    #[arg(long, value_name = "N", value_parser = whole(1, MAX_RUNS))]
+    pub(crate) runs: Option<u64>,
     /// On how many threads [default: as many as there are processors]
     #[arg(long, value_name = "N", value_parser = whole(1, 1_024))]
     pub(crate) jobs: Option<u64>,
-    /// The seed of all draws
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole(0, u64::MAX))]
-    pub(crate) seed: u64,
-    /// How plans of faults are drawn
-    #[arg(long, value_name = "HOW", default_value = "uniform", value_parser = strategies())]
-    pub(crate) strategy: StrategyName,
+    /// The seed of all draws [default: 0]
+    #[arg(long, value_name = "N", value_parser = whole(0, u64::MAX))]
+    pub(crate) seed: Option<u64>,
+    /// How plans of faults are drawn [default: uniform]
+    #[arg(long, value_name = "HOW", value_parser = strategies())]
+    pub(crate) strategy: Option<StrategyName>,
     /// Which faults are likely: all alike (`even`), or by the FMECA (`fmeca`, under supervisors)
-    #[arg(long, value_name = "HOW", default_value = "even", value_parser = rates())]
-    pub(crate) rates: Rates,
-    /// How many faults a run has, as `2` or `1..3`
-    #[arg(long, value_name = "N[..N]", default_value = "1..3", value_parser = per_run)]
-    pub(crate) per_run: (u64, u64),
-    /// What must hold of every run
+    /// [default: even]
+    #[arg(long, value_name = "HOW", value_parser = rates())]
+    pub(crate) rates: Option<Rates>,
+    /// How many faults a run has, as `2` or `1..3` [default: 1..3]
+    #[arg(long, value_name = "N[..N]", value_parser = per_run)]
+    pub(crate) per_run: Option<(u64, u64)>,
+    /// Requirement of every run
     #[arg(long, value_name = "WHAT", value_parser = requirement)]
     pub(crate) require: Vec<Requirement>,
-    /// Who plans
-    #[arg(long, value_enum, value_name = "WHO", default_value_t = PolicyName::Usual)]
-    pub(crate) policy: PolicyName,
-    /// Runs the same plans with each policy, and compares
+    /// How plans are adapted; with `exact` also who makes them [default: usual]
+    #[arg(long, value_enum, value_name = "HOW")]
+    pub(crate) policy: Option<PolicyName>,
+    /// Objective of the plan, as in `cotama run`: the paper's rule, the most quality, or the least
+    /// energy [default: that of the mission file, else quality]
+    #[arg(long, value_name = "WHAT", conflicts_with = "compare")]
+    #[arg(value_parser = objectives(&["paper", "quality", "min-energy"]))]
+    pub(crate) objective: Option<Objective>,
+    /// Planner, as in `cotama run`: the rule of PANORAMA, or a complete search
+    /// [default: panorama for the objective paper, else exact]
+    #[arg(long, value_enum, value_name = "WHO", conflicts_with = "compare")]
+    pub(crate) allocator: Option<AllocatorName>,
+    /// The most steps of a complete search
+    #[arg(long, value_name = "N", default_value_t = STEPS, value_parser = whole(1, u64::MAX))]
+    pub(crate) steps: u64,
+    /// Runs the same plans with each policy, and compares how they end
     #[arg(long, conflicts_with_all = ["shard", "out", "at_most", "within", "policy"])]
+    #[arg(conflicts_with_all = ["require", "shrink", "junit"])]
     pub(crate) compare: bool,
     /// Stops as soon as it is decided whether the probability of failure is at most this, or at
     /// least twice this (but less than half way to 1)
@@ -69,40 +87,56 @@ pub(crate) struct CampaignArgs {
     /// Runs so many missions that the estimate misses by at most this
     #[arg(long, value_name = "E", value_parser = share, conflicts_with_all = ["runs", "at_most"])]
     pub(crate) within: Option<f64>,
-    /// How often an interval holds the truth, or a decision is right, at least
-    #[arg(long, value_name = "C", default_value = "0.95", value_parser = confidence)]
-    pub(crate) confidence: f64,
-    /// How many failing runs of each requirement are made small
-    #[arg(long, value_name = "N", default_value_t = 20, value_parser = whole(0, 200))]
-    pub(crate) shrink: u64,
+    /// How often an interval holds the truth, or a decision is right, at least [default: 0.95]
+    #[arg(long, value_name = "C", value_parser = confidence)]
+    pub(crate) confidence: Option<f64>,
+    /// How many failing runs of each requirement are made small [default: 20, of a shard none]
+    #[arg(long, value_name = "N", value_parser = whole(0, 200))]
+    pub(crate) shrink: Option<u64>,
     /// Runs one part of the campaign, as `2/3`: merge them with `cotama campaign merge`
     #[arg(long, value_name = "I/N", value_parser = shard, requires = "out")]
     pub(crate) shard: Option<Shard>,
     /// The folder of results, failures and the report; a campaign that was stopped goes on there
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// Writes the requirements as test cases, in the XML of JUnit
+    #[arg(long, value_name = "FILE")]
+    pub(crate) junit: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) json: Json,
 }
 
-/// Who plans.
+/// How plans are adapted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PolicyName {
-    /// The rule of PANORAMA; under supervisors a complete search for the most quality
+    /// When a margin is below zero or what a plan needs is lost, as `cotama run` does
     Usual,
-    /// The rule of PANORAMA, and a complete search where it finds nothing
+    /// The same, by the rule of PANORAMA and a complete search where it finds nothing; under
+    /// supervisors by a complete search for the most quality
     Exact,
-    /// The same, and better plans when margins have grown
+    /// As usual, and to better plans when margins have grown
     Upward,
     /// The plan of the start is kept
     Rigid,
+}
+
+impl CampaignArgs {
+    /// How often an interval holds the truth.
+    pub(crate) fn confidence(&self) -> f64 {
+        self.confidence.unwrap_or(0.95)
+    }
+
+    /// Returns the planner of the runs.
+    pub(crate) fn policy(&self) -> PolicyName {
+        self.policy.unwrap_or(PolicyName::Usual)
+    }
 }
 
 impl PolicyName {
     /// All, the one without adaptation first.
     pub(crate) const ALL: [Self; 4] = [Self::Rigid, Self::Usual, Self::Exact, Self::Upward];
 
-    /// Its name on the command line.
+    /// Returns the name on the command line.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Usual => "usual",
@@ -112,20 +146,37 @@ impl PolicyName {
         }
     }
 
-    /// The policy, of a mission with supervisors or without.
-    pub(crate) const fn policy(self, supervised: bool) -> Policy {
+    /// The policy, of a mission with supervisors or without; by the mission's own planner but for
+    /// `exact`.
+    pub(crate) const fn policy(self, supervised: bool, steps: u64) -> Policy {
         let exact = if supervised {
-            Planner::Exact { aim: Aim::Quality, steps: 100_000 }
+            Planner::Exact { aim: Aim::Quality, steps }
         } else {
-            Planner::PanoramaThenExact { steps: 100_000 }
+            Planner::PanoramaThenExact { steps }
         };
         let (planner, upward, rigid) = match self {
             Self::Usual => (None, false, false),
             Self::Exact => (Some(exact), false, false),
-            Self::Upward => (Some(exact), true, false),
+            Self::Upward => (None, true, false),
             Self::Rigid => (None, false, true),
         };
         Policy { planner, upward, rigid }
+    }
+}
+
+impl CampaignArgs {
+    /// Returns the planner and the policy for this mission.
+    ///
+    /// # Errors
+    /// A [`Failure`] where steps are given and nothing is searched.
+    pub(crate) fn policy_for(&self, mission: &Mission) -> Result<Policy, Failure> {
+        let policy = self.policy().policy(mission.supervisor().is_some(), self.steps);
+        if policy.planner.is_some() {
+            return Ok(policy);
+        }
+        let objective = mission::objective(self.objective, self.allocator, mission);
+        let chosen = mission::planner(objective, self.allocator, self.steps)?;
+        Ok(Policy { planner: Some(chosen), ..policy })
     }
 }
 
@@ -157,7 +208,7 @@ fn per_run(text: &str) -> Result<(u64, u64), String> {
 fn shard(text: &str) -> Result<Shard, String> {
     let (index, of) = text.split_once('/').unwrap_or((text, ""));
     let shard = index.parse().ok().zip(of.parse().ok()).map(|(index, of)| Shard { index, of });
-    let fits = |it: &Shard| (1..=it.of).contains(&it.index) && it.of <= 100_000;
+    let fits = |it: &Shard| (1..=it.of).contains(&it.index) && it.of <= MAX_SHARDS;
     shard.filter(fits).ok_or_else(|| "a part of the whole, as 2/3, is needed".into())
 }
 

@@ -19,6 +19,7 @@ Properties:
   AG (f -> AF<=200ms o)    time nets: at the latest after 200 ms
   AF a assuming weak(t)    not on runs that could fire t for ever and never do;
                            of LTL too, and of time nets
+`AG a -> b` could be `AG (a -> b)` or `(AG a) -> b`: parentheses say which.
 About one marking, behind a quantifier or with --initial:
   a, a <= 2, 2*a - b = 1   tokens of places
   fireable(t1, t2)         one of these transitions can fire
@@ -42,6 +43,11 @@ Systems: with --semantics rounds, the default, the place `round` is marked betwe
 `turn.outside` when it is the turn of what is outside. What happens in a round is shown, not the \
 way of its token.
 
+Teams: of a team at work (`service`, or a file as `cotama run` takes it) the protocol by which its \
+robots give out its tasks is checked, with requirements S1 to S9 and L1 to L4: `r2.executing.t1` \
+is its second robot in its first task. As many robots fail as its file has faults of robots. Where \
+the net may have more than 100000 transitions, all is unknown.
+
 Evidence: --certificate FILE writes what `cotama verify` checks again. Of several properties each \
 has a file of its own, FILE-1.json, FILE-2.json and so on by its position; so for --trace.
 
@@ -64,6 +70,7 @@ Examples:
   $ cotama check watchdog --property 'bound(w1 -> Fault)'
   $ cotama check door --untimed --property 'AG (Opening -> AF Open) assuming weak(opened)'
   $ cotama check kanban:2 --junit kanban.xml --sarif kanban.sarif
+  $ cotama check service
   $ cotama check delivery
   $ cotama check delivery --property 'AG (round & gs.Safe -> ls.Idle)'";
 
@@ -90,7 +97,7 @@ Examples:
   $ cotama verify - --json < deadlock.json
   $ sed s/left_first_1/then_right_1/ deadlock.json | cotama verify -   # another run: exit code 1";
 
-/// What a search may use.
+/// The budget of a search.
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct BudgetArgs {
     /// On how many threads
@@ -118,7 +125,7 @@ fn seconds(text: &str) -> Result<Duration, String> {
 #[derive(Args, Debug)]
 pub(crate) struct CheckArgs {
     /// The name of a model that comes with the program, the path of a PNML, JSON or TINA (.net)
-    /// file, or `-`
+    /// file, or `-`; or a team at work, for its protocol
     pub(crate) model: String,
     /// A property, or the name of a usual question; any number of them
     #[arg(long, value_name = "TEXT")]
@@ -136,7 +143,7 @@ pub(crate) struct CheckArgs {
     /// Leaves the intervals of transitions out: they fire in any order, at any time
     #[arg(long)]
     pub(crate) untimed: bool,
-    /// What it means that nets of a system work together [default: rounds]
+    /// Meaning of a system of nets [default: rounds]
     #[arg(long, value_enum, value_name = "MEANING")]
     pub(crate) semantics: Option<Semantics>,
     #[command(flatten)]
@@ -171,7 +178,7 @@ pub(crate) struct StatespaceArgs {
     /// Leaves the intervals of transitions out: they fire in any order, at any time
     #[arg(long)]
     pub(crate) untimed: bool,
-    /// What it means that nets of a system work together [default: rounds]
+    /// Meaning of a system of nets [default: rounds]
     #[arg(long, value_enum, value_name = "MEANING")]
     pub(crate) semantics: Option<Semantics>,
     #[command(flatten)]
@@ -193,14 +200,14 @@ pub(crate) struct VerifyArgs {
     /// And about this property
     #[arg(long, value_name = "TEXT", requires = "model")]
     pub(crate) property: Option<String>,
-    /// What it means that nets of a system work together [default: rounds]
+    /// Meaning of a system of nets [default: rounds]
     #[arg(long, value_name = "MEANING", requires = "model")]
     pub(crate) semantics: Option<Semantics>,
     #[command(flatten)]
     pub(crate) json: Json,
 }
 
-/// What it means that nets of a system work together.
+/// The meaning of a system of nets.
 #[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Semantics {
@@ -214,7 +221,7 @@ pub(crate) enum Semantics {
 /// Which engine looks for the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum EngineName {
-    /// Those that suit the question, the cheapest first
+    /// Engines that suit the question, the cheapest first
     Auto,
     /// All markings, one by one
     Explicit,

@@ -47,7 +47,7 @@ pub(crate) struct EstimateArgs {
     /// Leaves the intervals of transitions out: they fire in any order, at any time
     #[arg(long)]
     pub(crate) untimed: bool,
-    /// What it means that nets of a system work together [default: rounds]
+    /// Meaning of a system of nets [default: rounds]
     #[arg(long, value_enum, value_name = "MEANING")]
     pub(crate) semantics: Option<Semantics>,
     #[command(flatten)]

@@ -11,7 +11,7 @@ use std::fmt::Write;
 /// The widest help, however wide the screen is.
 const WIDEST: usize = 100;
 
-/// What the values are called that are numbers.
+/// Names of values that are numbers.
 const NUMBERS: [&str; 5] = ["N", "ms", "mJ", "s", "MiB"];
 
 /// The command line, with help for a screen so wide.
@@ -137,7 +137,7 @@ mod tests {
     use super::fitted;
 
     #[test]
-    fn an_example_goes_on_in_another_line_where_a_shell_goes_on() {
+    fn an_example_breaks_its_line_where_a_shell_goes_on() {
         let text = "  $ cotama check it --property 'AG (a & b)' --json   # exit code 1";
         assert_eq!(
             fitted(text, 40),

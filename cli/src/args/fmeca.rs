@@ -33,7 +33,7 @@ pub(crate) struct FmecaArgs {
     /// The file to write, in place of standard output
     #[arg(long, short, value_name = "FILE", conflicts_with_all = ["json", "diagnosability"])]
     pub(crate) output: Option<PathBuf>,
-    /// Of the diagrams, the one of this function, as `localise`
+    /// Diagram of this function alone, as `localise`
     #[arg(long, value_name = "NAME", conflicts_with_all = ["json", "diagnosability"])]
     pub(crate) function: Option<String>,
     /// Shows which failure modes cannot be told apart, and what would help
@@ -43,7 +43,7 @@ pub(crate) struct FmecaArgs {
     pub(crate) json: Json,
 }
 
-/// What the analysis is written as.
+/// The format of a written analysis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum FmecaFormat {
     /// The table, for Markdown (.md)

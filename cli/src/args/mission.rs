@@ -6,14 +6,13 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
-/// The usual limit of a complete search.
-pub(crate) const STEPS: u64 = 50_000_000;
+pub(crate) use cotama_sim::options::STEPS;
 
-/// Who plans, and with what.
-#[derive(Args, Debug)]
+/// The planner and its options.
+#[derive(Args, Clone, Debug)]
 pub(crate) struct Planning {
-    /// Who plans: the rule of PANORAMA, or a complete search [default: panorama for the objective
-    /// paper, else exact]
+    /// Planner: the rule of PANORAMA, or a complete search
+    /// [default: panorama for the objective paper, else exact]
     #[arg(long, value_enum, value_name = "WHO", hide_possible_values = false)]
     pub(crate) allocator: Option<AllocatorName>,
     /// The most steps of a complete search
@@ -39,9 +38,9 @@ pub(crate) struct Planning {
 pub(crate) struct PlanArgs {
     #[command(flatten)]
     pub(crate) mission: MissionArg,
-    /// What a plan is chosen for: the paper's rule, the most quality, the least energy, or all
-    /// plans of which none is better in duration, energy and quality [default: what the mission
-    /// file says, else quality]
+    /// Objective of the plan: the paper's rule, the most quality, the least energy, or all plans of
+    /// which none is better in duration, energy and quality
+    /// [default: that of the mission file, else quality]
     #[arg(long, value_name = "WHAT")]
     #[arg(value_parser = objectives(&["paper", "quality", "min-energy", "front"]))]
     pub(crate) objective: Option<Objective>,
@@ -51,12 +50,12 @@ pub(crate) struct PlanArgs {
     pub(crate) json: Json,
 }
 
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) mission: MissionArg,
-    /// What a plan is chosen for: the paper's rule, the most quality, or the least energy [default:
-    /// what the mission file says, else quality]
+    /// Objective of the plan: the paper's rule, the most quality, or the least energy
+    /// [default: that of the mission file, else quality]
     #[arg(long, value_name = "WHAT")]
     #[arg(value_parser = objectives(&["paper", "quality", "min-energy"]))]
     pub(crate) objective: Option<Objective>,
@@ -65,8 +64,7 @@ pub(crate) struct RunArgs {
     /// The seed of all random numbers; of missions under supervisors nothing is random yet
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole(0, u64::MAX))]
     pub(crate) seed: u64,
-    /// What goes wrong: nothing (`none`), what the mission file says (`script`), or a file of
-    /// faults
+    /// Faults of the run: none (`none`), those of the mission file (`script`), or a file of faults
     #[arg(long, value_name = "none|script|FILE", default_value = "script")]
     pub(crate) faults: String,
     /// How often margins are checked, in ms [default: as the mission file says]
@@ -94,11 +92,11 @@ pub(crate) struct RunArgs {
 pub(crate) struct AllocateArgs {
     /// The instance, a JSON file, or `-`
     pub(crate) instance: String,
-    /// What the plan is chosen for: the most quality, or the least energy within both limits
+    /// Objective of the plan: the most quality, or the least energy within both limits
     #[arg(long, value_name = "WHAT", default_value = "quality",
           value_parser = objectives(&["quality", "min-energy"]))]
     pub(crate) objective: Objective,
-    /// Who plans: a complete search, or the rule of PANORAMA, which pursues no objective
+    /// Planner: a complete search, or the rule of PANORAMA, which pursues no objective
     #[arg(long, value_enum, value_name = "WHO", default_value_t = AllocatorName::Exact)]
     pub(crate) allocator: AllocatorName,
     /// The most steps of a complete search
@@ -111,13 +109,14 @@ pub(crate) struct AllocateArgs {
 
 #[derive(Args, Debug)]
 pub(crate) struct ReplayArgs {
-    /// A trace, or a file of faults
+    /// A trace, or a file of faults as a campaign writes it for each failure
     pub(crate) file: String,
-    /// The mission of a file of faults: its name, or the path of its file
+    /// The mission of a file of faults: its name, or the path of its file [default: the one that
+    /// the file names]
     #[arg(long)]
     pub(crate) mission: Option<String>,
-    /// The seed for a file of faults
-    #[arg(long, value_name = "N", requires = "mission", value_parser = whole(0, u64::MAX))]
+    /// The seed for a file of faults [default: that of the file, else 0]
+    #[arg(long, value_name = "N", value_parser = whole(0, u64::MAX))]
     pub(crate) seed: Option<u64>,
     /// Writes a report of the run made again, `index.html`, to this folder
     #[arg(long, value_name = "DIR")]
@@ -129,7 +128,7 @@ pub(crate) struct ReplayArgs {
     pub(crate) json: Json,
 }
 
-/// Who plans.
+/// The planner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum AllocatorName {
     /// A complete search; for the objective paper, only where the rule finds nothing
@@ -145,7 +144,7 @@ pub(crate) enum Fidelity {
     Mission,
 }
 
-/// What a plan is chosen for.
+/// The objective of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Objective {
     /// The rule of PANORAMA: the highest plan that meets the limits
@@ -159,7 +158,7 @@ pub(crate) enum Objective {
 }
 
 impl Objective {
-    /// Its name on the command line.
+    /// Returns the name on the command line.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
@@ -170,7 +169,9 @@ impl Objective {
     }
 }
 
-fn objectives(names: &'static [&'static str]) -> impl TypedValueParser<Value = Objective> {
+pub(super) fn objectives(
+    names: &'static [&'static str],
+) -> impl TypedValueParser<Value = Objective> {
     PossibleValuesParser::new(names).try_map(|name| Objective::from_str(&name, false))
 }
 

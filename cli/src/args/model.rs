@@ -69,7 +69,7 @@ pub(crate) struct ExportArgs {
     /// The format [default: by the end of the name of the output]
     #[arg(long, value_enum)]
     pub(crate) format: Option<Format>,
-    /// What it means that nets of a system work together, for all but its svg [default: rounds]
+    /// Meaning of a system of nets, for all but its svg [default: rounds]
     #[arg(long, value_enum, value_name = "MEANING")]
     pub(crate) semantics: Option<Semantics>,
     /// How dot, svg and mermaid draw it [default: auto]
@@ -84,7 +84,7 @@ pub(crate) struct ExportArgs {
 pub(crate) struct SimulateArgs {
     #[command(flatten)]
     pub(crate) model: ModelArg,
-    /// What is offered, in this order; without any, it is read from standard input
+    /// Events offered, in this order; without any, they are read from standard input
     #[arg(value_name = "EVENT")]
     pub(crate) events: Vec<String>,
     /// Plays rounds: each word is one. Of a net it is a synchronous step, of a system the turns of
@@ -104,7 +104,7 @@ pub(crate) struct SimulateArgs {
     pub(crate) json: Json,
 }
 
-/// What a model is written as.
+/// The format of a written model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
     /// A graph for Graphviz (.dot, .gv)

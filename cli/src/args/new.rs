@@ -11,8 +11,8 @@ What is written:
   net      the folder NAME: a crate with a supervisor, its laws, a program that plays it, tests of \
 what it promises, and an example that writes it as JSON for `check` and `simulate`
   system   the same with two supervisors that work together
-  board    the folder NAME-board: a crate that plays the supervisor of the crate NAME beside it on a \
-microcontroller, in an emulator first
+  board    the folder NAME-board: a crate that plays the supervisor of the crate NAME beside it \
+on a microcontroller, in an emulator first
 
 Examples:
   $ cotama new mission hall && cotama plan hall.toml && cotama run hall.toml
@@ -21,7 +21,7 @@ Examples:
   $ cotama new net hand && cotama new board hand
   $ cotama new system robot --json";
 
-/// What is begun.
+/// The kind of project to begin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum NewKind {
     /// A mission file
@@ -38,10 +38,10 @@ pub(crate) enum NewKind {
 
 #[derive(Args, Debug)]
 pub(crate) struct NewArgs {
-    /// What to begin
+    /// Kind of project
     #[arg(value_enum)]
     pub(crate) kind: NewKind,
-    /// Its name; or a path that ends with it, in a folder that exists
+    /// Name of the project; or a path that ends with it, in a folder that exists
     pub(crate) name: String,
     /// The folder of this project's sources, on which a crate depends [default: `cotama` beside the
     /// crate, or the sources in which the crate stands]

@@ -32,7 +32,7 @@ pub(crate) enum SchemaName {
     New,
     /// A line of a recorded run
     Recording,
-    /// What stands in place of an answer when there is none
+    /// Answer in place of another one when there is none
     Error,
     /// A mission file, in TOML
     Mission,

@@ -2,9 +2,9 @@
 
 use super::number::whole;
 use clap::{Args, ValueEnum};
-use cotama_sim::fleet::task::{MAX_ROBOTS, Method};
+use cotama_models::team::scenario::{MAX_ROBOTS, Method};
 
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub(crate) struct TeamArgs {
     /// How many messages of a team get lost, in percent, with at most one decimal [default: 5 for
     /// `fleet`, 0 for `service`]
@@ -20,11 +20,11 @@ pub(crate) struct TeamArgs {
     /// 5, but at most an eighth of the robots]
     #[arg(long, value_name = "N", value_parser = whole(0, MAX_ROBOTS as u64))]
     pub(crate) failures: Option<u64>,
-    /// How tasks are given to the robots of the fleet [default: optimal]
+    /// How tasks are given to the robots of a team [default: as its file says; optimal]
     #[arg(long, value_enum, value_name = "HOW", hide_possible_values = false)]
     pub(crate) allocation: Option<Allocation>,
-    /// Runs so many seeds of the fleet with each allocation, and compares; no report is written
-    #[arg(long, value_name = "N", value_parser = whole(1, 100_000), conflicts_with = "report")]
+    /// Runs so many seeds of a team with each allocation, and compares; no report is written
+    #[arg(long, value_name = "N", value_parser = whole(2, 100_000), conflicts_with = "report")]
     #[arg(conflicts_with = "trace")]
     pub(crate) seeds: Option<u64>,
     /// The cup of the scenario `service` stands so that two fingers cannot grasp it
@@ -35,18 +35,21 @@ pub(crate) struct TeamArgs {
 impl TeamArgs {
     /// The first of these options that was given.
     pub(crate) fn first(&self) -> Option<&'static str> {
-        let given = [("--loss", self.loss.is_some()), ("--hidden-handle", self.hidden_handle)];
-        given.into_iter().find(|it| it.1).map(|it| it.0).or(self.first_of_fleet())
+        let given = [
+            ("--loss", self.loss.is_some()),
+            ("--hidden-handle", self.hidden_handle),
+            ("--allocation", self.allocation.is_some()),
+            ("--seeds", self.seeds.is_some()),
+        ];
+        given.into_iter().find(|it| it.1).map(|it| it.0).or(self.first_of_size())
     }
 
-    /// The first of those for fleets.
-    pub(crate) fn first_of_fleet(&self) -> Option<&'static str> {
+    /// The first of those that say how large the scenario `fleet` is.
+    pub(crate) fn first_of_size(&self) -> Option<&'static str> {
         let given = [
             ("--robots", self.robots.is_some()),
             ("--tasks", self.tasks.is_some()),
             ("--failures", self.failures.is_some()),
-            ("--allocation", self.allocation.is_some()),
-            ("--seeds", self.seeds.is_some()),
         ];
         given.into_iter().find(|it| it.1).map(|it| it.0)
     }

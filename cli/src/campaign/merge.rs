@@ -1,72 +1,102 @@
 //! `cotama campaign merge`: the shards of one campaign put together.
 
-use super::store::{Block, Lines, Store, header};
-use super::{ended, finish};
+use super::lines::{Block, Lines};
+use super::store::{Store, differs, header};
+use super::sums::Sums;
+use super::{asked, derived, ended, finish};
 use crate::args::CampaignArgs;
 use crate::args::PolicyName;
 use crate::exit::{Exit, Failure};
+use crate::kind::{self, Kind};
+use crate::mission;
 use crate::output::Screen;
 use cotama_models::missions::Mission;
+use cotama_models::team::scenario::Scenario;
 use cotama_sim::campaign::results::{Header, Tally};
 use cotama_sim::campaign::run::{Campaign, Shard};
-use cotama_sim::campaign::strategy::BLOCK;
-use cotama_sim::campaign::subject::Subject;
+use cotama_sim::campaign::subject::{Policy, Subject};
+use cotama_sim::options::STEPS;
 use std::path::Path;
 
 /// Puts shards together: the same bytes as one run.
 pub(super) fn merge(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Failure> {
+    asked::only_merged(args)?;
     let (mut parts, first) = all(args)?;
     let whole = Header { shard: Shard::ALL, ..first };
+    // A team is as good a subject: its text says which it is.
+    let team = kind::is_of(&whole.mission, Kind::TeamAtWork);
+    let settings = whole.settings().map_err(|error| Failure::new(error.to_string()))?;
+    if team {
+        let scenario = Scenario::parse(&whole.mission_source, &whole.mission)?;
+        let subject = Subject::of_team(scenario, None).named(&whole.mission_source);
+        let campaign =
+            Campaign::new(subject, settings).map_err(|it| Failure::new(it.to_string()))?;
+        return merged(args, &whole, &mut parts, &campaign, screen);
+    }
     let mission = Mission::parse(&whole.mission_source, &whole.mission)?;
     let unknown = || Failure::new("the campaign names a policy or a setting that is not known");
     let policy = PolicyName::ALL.into_iter().find(|it| it.name() == whole.policy);
-    let policy = policy.ok_or_else(unknown)?.policy(mission.supervisor().is_some());
+    let policy = policy.ok_or_else(unknown)?.policy(mission.supervisor().is_some(), STEPS);
+    let policy = Policy { planner: whole.planner.or(policy.planner), ..policy };
     let subject =
         Subject::new(&mission, policy).map_err(|error| Failure::new(error.to_string()))?;
-    let campaign = Campaign::new(subject, whole.settings().ok_or_else(unknown)?)
-        .map_err(|error| Failure::new(error.to_string()))?;
+    let subject = mission::named(subject, &whole.mission_source);
+    let campaign =
+        Campaign::new(subject, settings).map_err(|error| Failure::new(error.to_string()))?;
+    merged(args, &whole, &mut parts, &campaign, screen)
+}
+
+/// Puts the lines of the parts together, and answers.
+fn merged(
+    args: &CampaignArgs,
+    whole: &Header,
+    parts: &mut [Part],
+    campaign: &Campaign<'_>,
+    screen: &Screen,
+) -> Result<Exit, Failure> {
+    let again = |block| campaign.block(block);
     let mut tally = Tally::default();
     // Everything is read before anything is written.
-    let mut text = String::new();
+    let mut kept = Vec::new();
     for block in Shard::ALL.blocks(whole.runs) {
-        let at = usize::try_from(block).unwrap_or(usize::MAX) % parts.len();
-        match parts[at].block(block, whole.runs)? {
-            Block::Whole(lines, _) => {
-                for (line, json) in &lines {
-                    tally.add(line, json);
-                    if args.out.is_some() {
-                        text.push_str(json);
-                        text.push('\n');
-                    }
-                }
-            }
-            Block::Torn => {
-                let message = "the shard is not complete: the file ends here";
-                return Err(parts[at].wrong_with(
-                    message,
-                    "give the command of the shard again: it goes on from there",
-                ));
-            }
+        let number = usize::try_from(block).unwrap_or(usize::MAX);
+        let (at, position) = (number % parts.len(), number / parts.len());
+        let Part { lines: file, sums } = &mut parts[at];
+        let Block::Whole(lines, _) = file.block(block, whole.runs)? else {
+            let message = "the shard is not complete: the file ends here";
+            let help = "give the command of the shard again: it goes on from there";
+            return Err(file.wrong_at(file.number(), message, help));
+        };
+        sums.check(position, block, &lines, file, &again)?;
+        lines.iter().for_each(|(line, text)| tally.add(line, text));
+        if args.out.is_some() {
+            kept.push((block, lines));
         }
     }
-    for part in &mut parts {
-        if !part.is_at_end() {
-            return Err(part.wrong("more lines than the campaign has runs"));
+    for Part { lines, .. } in &mut *parts {
+        if !lines.is_at_end() {
+            return Err(lines.wrong("more lines than the campaign has runs"));
         }
     }
     if let Some(folder) = &args.out {
-        let (mut store, done) = Store::open(folder, &whole, &mut |_, _| false)?;
-        let skipped = Shard::ALL.blocks(whole.runs).take(done).count() as u64 * BLOCK;
-        let kept = text.lines().take(usize::try_from(skipped).unwrap_or(usize::MAX));
-        let bytes = kept.map(|it| it.len() + 1).sum();
-        store.append(text.get(bytes..).unwrap_or_default())?;
+        let (mut store, done) = Store::open(folder, whole, &again, &mut |_, _| {})?;
+        derived::clear(folder)?;
+        for (block, lines) in kept.iter().skip(done) {
+            store.append(*block, lines)?;
+        }
     }
-    let answer = finish(args, &whole, &campaign, &tally, None)?;
+    let answer = finish(args, whole, campaign, &tally, None)?;
     ended(args, &answer, screen)
 }
 
+/// The results of a shard with their checksums.
+struct Part {
+    lines: Lines,
+    sums: Sums,
+}
+
 /// The results of all shards in the order of their numbers, and the header of one of them.
-fn all(args: &CampaignArgs) -> Result<(Vec<Lines>, Header), Failure> {
+fn all(args: &CampaignArgs) -> Result<(Vec<Part>, Header), Failure> {
     let Some(first) = args.shards.first() else {
         let message = "merge needs the folders of all shards";
         return Err(Failure::new(message).help("cotama campaign merge DIR... --out DIR"));
@@ -76,7 +106,7 @@ fn all(args: &CampaignArgs) -> Result<(Vec<Lines>, Header), Failure> {
     let mut found: Vec<Option<&Path>> = vec![None; count.min(100_000)];
     for folder in &args.shards {
         let (it, name) = (header(folder)?, folder.display().to_string());
-        if let Some(what) = it.differs_from(&expected) {
+        if let Some(what) = differs(&it, &expected) {
             let message = format!(
                 "this is no part of the campaign in `{}`: its {what} differs",
                 first.display()
@@ -99,6 +129,10 @@ fn all(args: &CampaignArgs) -> Result<(Vec<Lines>, Header), Failure> {
         let message = format!("shard {}/{count} is missing", missing + 1);
         return Err(Failure::new(message).help("give the folders of all shards"));
     }
-    let parts = found.into_iter().flatten().map(Lines::of).collect::<Result<_, _>>()?;
+    let part = |folder: &Path| {
+        let sums = Sums::of(folder, &header(folder)?)?;
+        Ok::<_, Failure>(Part { lines: Lines::of(folder)?, sums })
+    };
+    let parts = found.into_iter().flatten().map(part).collect::<Result<_, _>>()?;
     Ok((parts, expected))
 }

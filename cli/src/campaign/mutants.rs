@@ -1,6 +1,7 @@
 //! Mutants of the two files of a campaign, for tests and fuzz targets.
 
-use super::store::{Block, Lines, header_in};
+use super::lines::{Block, Lines};
+use super::store::header_in;
 use crate::exit::Failure;
 use cotama_fuzz::Reader;
 use cotama_sim::campaign::results::{Header, Tally};
@@ -75,7 +76,7 @@ fn read_campaign(bytes: &[u8]) -> bool {
     let settings = header.settings().expect("it was asked for");
     let mission = (header.mission_source.as_str(), header.mission.as_str());
     let again = Header::new(mission, &settings, &header.policy, header.shard);
-    assert_eq!(again.settings(), Some(settings));
+    assert_eq!(again.settings(), Ok(settings));
     let runs = header.runs.min(10 * BLOCK);
     assert!(header.shard.blocks(runs).all(|it| it * BLOCK < runs));
     true
@@ -86,7 +87,8 @@ fn read_runs(bytes: &[u8]) -> bool {
     let mut lines = Lines::new(Path::new("runs.jsonl"), bytes);
     match lines.block(0, COUNT) {
         Ok(Block::Whole(block, length)) => {
-            assert_eq!(lines.is_at_end(), length == bytes.len() as u64);
+            let rest = &bytes[usize::try_from(length).expect("it was read")..];
+            assert_eq!(lines.is_at_end(), rest.iter().all(u8::is_ascii_whitespace));
             let mut tally = Tally::default();
             for (run, (line, text)) in (0..).zip(&block) {
                 assert_eq!(line.run, run);
@@ -115,9 +117,9 @@ mod tests {
 
     /// The corpus: a campaign whose requirements are one of each kind, part of it, and its runs.
     #[test]
-    fn the_corpora_are_what_a_campaign_writes() {
+    fn the_corpora_are_files_of_a_campaign() {
         let texts = ["completed", "energy<=8640000", "never gs.abort", "AG !ls.End"];
-        let requirements = texts.map(|it| it.parse().unwrap()).to_vec();
+        let requirements = texts.map(|it| it.parse().unwrap()).into();
         let settings = Settings { runs: 4_600, requirements, ..Settings::new(true) };
         let shard = Shard { index: 2, of: 3 };
         let header = Header::new(("own.toml", "[limits]\n"), &settings, "usual", shard);
@@ -126,7 +128,7 @@ mod tests {
 
         let patrol = embedded::mission("patrol").unwrap();
         let mission = Mission::parse(patrol.name, patrol.text).unwrap();
-        let requirements = vec!["completed".parse().unwrap()];
+        let requirements = ["completed".parse().unwrap()].into();
         let settings = Settings { runs: COUNT, requirements, ..Settings::new(false) };
         let subject = Subject::new(&mission, Policy::default()).unwrap();
         let lines = Campaign::new(subject, settings).unwrap().block(0);

@@ -1,44 +1,31 @@
 //! How far a campaign is, on a terminal.
 
+use crate::progress::Line;
 use crate::render::numbers::grouped;
 use std::cell::Cell;
-use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
-const EVERY: Duration = Duration::from_millis(100);
-
-/// A line on standard error: runs, rate, failures, time left; nothing where that is no terminal.
+/// Runs, rate, failures, time left.
 pub(super) struct Progress {
-    is_shown: bool,
+    line: Line,
     of: u64,
     begun: Instant,
     first: Cell<Option<u64>>,
-    written: Cell<Option<Instant>>,
 }
 
 impl Progress {
     pub(super) fn new(of: u64) -> Self {
-        let is_shown = io::stderr().is_terminal();
-        let (first, written) = (Cell::new(None), Cell::new(None));
-        Self { is_shown, of, begun: Instant::now(), first, written }
+        Self { line: Line::new(), of, begun: Instant::now(), first: Cell::new(None) }
     }
 
     pub(super) fn show(&self, runs: u64, failing: u64) {
         let first = self.first.get().unwrap_or(runs);
         self.first.set(Some(first));
-        let now = Instant::now();
-        if !self.is_shown || self.written.get().is_some_and(|it| now - it < EVERY) {
-            return;
-        }
-        self.written.set(Some(now));
-        let line = line(runs, runs - first, self.of, failing, now - self.begun);
-        let _ = write!(io::stderr(), "\r{line}\u{1b}[K");
+        self.line.write(self.begun, |passed| line(runs, runs - first, self.of, failing, passed));
     }
 
     pub(super) fn clear(&self) {
-        if self.written.take().is_some() {
-            let _ = write!(io::stderr(), "\r\u{1b}[K");
-        }
+        self.line.clear();
     }
 }
 

@@ -1,104 +1,152 @@
-//! The folder of a campaign: `campaign.json` says what is run, `runs.jsonl` has a line a run.
+//! The folder of a campaign: `campaign.json` says what is run, `runs.jsonl` has a line a run, and
+//! `runs.sums` a checksum for each block of these.
 //!
 //! Lines are appended block by block and never changed. A program that was killed leaves whole
-//! blocks and perhaps a torn one, which is dropped and run again.
+//! blocks and perhaps a torn one, which is dropped and run again; whole blocks are never dropped.
 
+use super::lines::{Block, Lines};
+use super::sums::{Again, Sums};
 use crate::exit::Failure;
-use crate::input::{self, plain};
+use crate::input;
 use crate::output;
 use cotama_sim::campaign::results::Header;
-use cotama_sim::campaign::run::{Line, Shard};
-use cotama_sim::campaign::strategy::BLOCK;
+use cotama_sim::campaign::run::Line;
+use cotama_verification::formats::json::read_object;
 use std::fs::{File, OpenOptions};
-use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{BufReader, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// The most bytes of a header.
 const HEADER_BYTES: u64 = 16 << 20;
-/// The most bytes of a line.
-const LINE_BYTES: u64 = 1 << 20;
 
-/// What takes the lines that are there already, each with its text; whether they are enough.
-pub(super) type Taken<'t> = dyn FnMut(&Line, &str) -> bool + 't;
+/// A consumer of lines that are stored already, each with its text.
+pub(super) type Taken<'t> = dyn FnMut(&Line, &str) + 't;
 
 /// Results that grow.
 pub(super) struct Store {
     path: PathBuf,
     file: File,
-    /// Where the whole blocks end.
+    /// End of the whole blocks.
     end: u64,
+    sums: Sums,
+    sums_file: File,
 }
 
 impl Store {
     /// Opens the results of a campaign, or begins them; says how many whole blocks are there.
+    /// Blocks whose checksum does not fit are run again, to say which line was changed.
     pub(super) fn open(
         folder: &Path,
         header: &Header,
+        again: &Again<'_>,
         taken: &mut Taken<'_>,
     ) -> Result<(Self, usize), Failure> {
         output::make_folder(folder)?;
-        let (head, path) = (folder.join("campaign.json"), folder.join("runs.jsonl"));
-        if head.exists() {
-            let there = self::header(folder)?;
-            let differs = there.differs_from(header);
-            let differs = differs.or((there.shard != header.shard).then_some("shard"));
-            if let Some(what) = differs {
-                let message = format!("another campaign is in this folder: its {what} differs");
-                return Err(Failure::of(folder.display().to_string(), message)
-                    .help("choose another folder, or go on with the same options"));
-            }
-        } else if path.exists() {
-            let message = "results without their campaign.json are in this folder";
-            return Err(
-                Failure::of(folder.display().to_string(), message).help("choose another folder")
-            );
-        } else {
-            let text = serde_json::to_string_pretty(header).map_err(|error| {
-                Failure::of(head.display().to_string(), format!("it cannot be written: {error}"))
-            })?;
-            output::file(&head, (text + "\n").as_bytes())?;
-        }
+        let header = &begun(folder, header)?;
+        let path = folder.join("runs.jsonl");
+        let open = |path: &Path| {
+            let mut options = OpenOptions::new();
+            let file = options.create(true).truncate(false).read(true).write(true).open(path);
+            file.map_err(|error| output::unwritten(path, &error))
+        };
+        let (mut file, sums) = (open(&path)?, Sums::of(folder, header)?);
         let wrong = |error: &std::io::Error| output::unwritten(&path, error);
-        let mut options = OpenOptions::new();
-        let file = options.create(true).truncate(false).read(true).write(true).open(&path);
-        let mut file = file.map_err(|error| wrong(&error))?;
-        let (mut end, mut blocks) = (0, 0);
+        let (mut end, mut done, mut ends_line) = (0, 0, true);
         let there = file.try_clone().map_err(|error| wrong(&error))?;
         let mut reader = Lines::new(&path, BufReader::new(there));
+        let mut torn = false;
         for block in header.shard.blocks(header.runs) {
-            match reader.block(block, header.runs)? {
-                Block::Whole(lines, bytes) => {
-                    (end, blocks) = (end + bytes, blocks + 1);
-                    if lines.iter().any(|(line, text)| taken(line, text)) {
-                        break;
-                    }
-                }
-                Block::Torn => break,
-            }
+            let Block::Whole(lines, bytes) = reader.block(block, header.runs)? else {
+                torn = true;
+                break;
+            };
+            sums.check(done, block, &lines, &reader, again)?;
+            (end, done, ends_line) = (end + bytes, done + 1, reader.ends_line);
+            lines.iter().for_each(|(line, text)| taken(line, text));
         }
-        file.set_len(end).map_err(|error| wrong(&error))?;
-        file.seek(SeekFrom::Start(end)).map_err(|error| wrong(&error))?;
-        Ok((Self { path, file, end }, blocks))
+        if !torn && !reader.is_at_end() {
+            return Err(reader.wrong("more lines than the campaign has runs"));
+        }
+        let mut sums_file = open(&sums.path)?;
+        for (file, end) in [(&mut file, end), (&mut sums_file, sums.end(done))] {
+            file.set_len(end).map_err(|error| wrong(&error))?;
+            file.seek(SeekFrom::Start(end)).map_err(|error| wrong(&error))?;
+        }
+        let mut store = Self { path: path.clone(), file, end, sums, sums_file };
+        if !ends_line {
+            store.write(b"\n")?;
+        }
+        Ok((store, done))
     }
 
-    /// Adds the lines of a block.
+    /// Adds a block: first its checksum, so that a whole block never lacks one.
     ///
     /// Two programs that run the same campaign write the same bytes to the same places: the later
     /// one of them sees that the file has grown, and stops before it writes.
-    pub(super) fn append(&mut self, text: &str) -> Result<(), Failure> {
+    pub(super) fn append(&mut self, block: u64, lines: &[(Line, String)]) -> Result<(), Failure> {
         if self.file.metadata().is_ok_and(|it| it.len() != self.end) {
             let message = "another program writes the results of this campaign";
             return Err(Failure::of(self.path.display().to_string(), message)
                 .help("let it end, or give each its own folder or shard"));
         }
-        self.end += text.len() as u64;
-        let written = self.file.write_all(text.as_bytes());
-        let written = written.and_then(|()| self.file.flush());
-        written.map_err(|error| {
-            output::unwritten(&self.path, &error)
-                .help("make room, and give the same command again: it goes on from there")
-        })
+        let sum = self.sums.line(block, lines);
+        let written = self.sums_file.write_all(sum.as_bytes());
+        let written = written.and_then(|()| self.sums_file.flush());
+        written.map_err(|error| no_room(&self.sums.path, &error))?;
+        let mut text = String::new();
+        for (_, line) in lines {
+            text.push_str(line);
+            text.push('\n');
+        }
+        self.write(text.as_bytes())
     }
+
+    fn write(&mut self, bytes: &[u8]) -> Result<(), Failure> {
+        self.end += bytes.len() as u64;
+        let written = self.file.write_all(bytes).and_then(|()| self.file.flush());
+        written.map_err(|error| no_room(&self.path, &error))
+    }
+}
+
+fn no_room(path: &Path, error: &std::io::Error) -> Failure {
+    output::unwritten(path, error)
+        .help("make room, and give the same command again: it goes on from there")
+}
+
+/// The header of the campaign in this folder, which must be this one; it is written where none is.
+fn begun(folder: &Path, header: &Header) -> Result<Header, Failure> {
+    let (head, path) = (folder.join("campaign.json"), folder.join("runs.jsonl"));
+    if head.exists() {
+        let there = self::header(folder)?;
+        let differs = differs(&there, header);
+        let differs = differs.or((there.shard != header.shard).then_some("shard"));
+        if let Some(what) = differs {
+            let message = format!("another campaign is in this folder: its {what} differs");
+            return Err(Failure::of(folder.display().to_string(), message)
+                .help("choose another folder, or go on with the same options"));
+        }
+        return Ok(there);
+    }
+    if path.exists() {
+        let message = "results without their campaign.json are in this folder";
+        return Err(
+            Failure::of(folder.display().to_string(), message).help("choose another folder")
+        );
+    }
+    let text = serde_json::to_string_pretty(header).map_err(|error| {
+        Failure::of(head.display().to_string(), format!("it cannot be written: {error}"))
+    })?;
+    output::file(&head, (text + "\n").as_bytes())?;
+    Ok(header.clone())
+}
+
+/// In what two headers differ, but for the shard. Texts with the same values are one mission,
+/// whatever their line ends, comments and order.
+pub(super) fn differs(one: &Header, other: &Header) -> Option<&'static str> {
+    let values = |it: &Header| it.mission.parse::<toml::Table>().ok();
+    let same = values(one).is_some_and(|one| values(other).is_some_and(|other| one == other));
+    let mission = if same { other.mission.clone() } else { one.mission.clone() };
+    Header { mission, ..one.clone() }.differs_from(other)
 }
 
 /// The header of a folder of results.
@@ -109,13 +157,12 @@ pub(super) fn header(folder: &Path) -> Result<Header, Failure> {
 
 /// The header in a text, which is that of this file.
 pub(super) fn header_in(path: &str, text: &str) -> Result<Header, Failure> {
-    let header: Header = serde_json::from_str(text).map_err(|error| {
+    let header: Header = read_object(text).map_err(|error| {
         Failure::of(path, format!("this is no campaign: {error}"))
             .help("`cotama campaign MISSION --out DIR` writes one")
     })?;
-    let settings = header.settings();
     let is_mine = header.schema == cotama_sim::campaign::results::SCHEMA;
-    if !is_mine || settings.is_none() || header.version != env!("CARGO_PKG_VERSION") {
+    if !is_mine || header.version != env!("CARGO_PKG_VERSION") {
         let message = format!(
             "written by another version: {} of {}, this is {}",
             header.schema.escape_debug(),
@@ -124,109 +171,37 @@ pub(super) fn header_in(path: &str, text: &str) -> Result<Header, Failure> {
         );
         return Err(Failure::of(path, message).help("run it again with this version"));
     }
-    let Shard { index, of } = header.shard;
-    if !(1..=of).contains(&index) {
-        let message = format!("shard {index}/{of}: its number is not one of the shards");
-        return Err(Failure::of(path, message).help("run this shard again in a new folder"));
-    }
+    header.settings().map_err(|error| {
+        Failure::of(path, error.to_string()).help("run this part again in a new folder")
+    })?;
     Ok(header)
-}
-
-/// A block of lines.
-pub(super) enum Block {
-    /// All its lines with their texts, and how many bytes they take.
-    Whole(Vec<(Line, String)>, u64),
-    /// The file ends before its end.
-    Torn,
-}
-
-/// The lines of results, read block by block.
-pub(super) struct Lines<R = BufReader<File>> {
-    path: PathBuf,
-    reader: R,
-    number: u64,
-}
-
-impl Lines {
-    /// The results of a folder.
-    pub(super) fn of(folder: &Path) -> Result<Self, Failure> {
-        let path = folder.join("runs.jsonl");
-        let file = File::open(&path).map_err(|error| {
-            let message = format!("it cannot be read: {}", plain(&error));
-            Failure::of(path.display().to_string(), message)
-                .help("run the shard, or give the folder of its results")
-        })?;
-        Ok(Self::new(&path, BufReader::new(file)))
-    }
-}
-
-impl<R: BufRead> Lines<R> {
-    /// Those that are read here; the path is only for messages.
-    pub(super) fn new(path: &Path, reader: R) -> Self {
-        Self { path: path.to_owned(), reader, number: 0 }
-    }
-
-    /// The next block, which must be this one.
-    pub(super) fn block(&mut self, block: u64, runs: u64) -> Result<Block, Failure> {
-        let (first, mut bytes) = (block * BLOCK, 0);
-        let mut lines = Vec::new();
-        for run in first..runs.min(first + BLOCK) {
-            let mut text = String::new();
-            let read = (&mut self.reader).take(LINE_BYTES).read_line(&mut text);
-            let read = read.map_err(|error| self.wrong(format!("it cannot be read: {error}")))?;
-            self.number += 1;
-            if text.pop() != Some('\n') {
-                return Ok(Block::Torn);
-            }
-            let line: Line = serde_json::from_str(&text)
-                .map_err(|error| self.wrong(format!("this is no result of a run: {error}")))?;
-            if line.run != run {
-                let message = format!("run {} stands where run {run} belongs", line.run);
-                return Err(self.wrong(message));
-            }
-            bytes += read as u64;
-            lines.push((line, text));
-        }
-        Ok(Block::Whole(lines, bytes))
-    }
-
-    /// Whether all is read.
-    pub(super) fn is_at_end(&mut self) -> bool {
-        self.reader.fill_buf().is_ok_and(<[u8]>::is_empty)
-    }
-
-    /// Something is wrong in the line read last.
-    pub(super) fn wrong(&self, message: impl Into<String>) -> Failure {
-        let help = "results are changed by nobody: run this part again in a new folder";
-        self.wrong_with(message, help)
-    }
-
-    /// The same, with what to do about it.
-    pub(super) fn wrong_with(&self, message: impl Into<String>, help: &str) -> Failure {
-        let place = format!("{}:{}", self.path.display(), self.number);
-        Failure::of(place, message).help(help)
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cotama_sim::campaign::run::Settings;
+    use cotama_sim::campaign::run::{Settings, Shard};
     use std::fs;
 
     #[test]
     fn the_later_of_two_programs_stops_before_it_writes() {
         let folder = std::env::temp_dir().join(format!("cotama-two-{}", std::process::id()));
         let header = Header::new(("own", ""), &Settings::new(false), "usual", Shard::ALL);
-        let open = || Store::open(&folder, &header, &mut |_, _| false).unwrap().0;
+        let open = || Store::open(&folder, &header, &|_| Vec::new(), &mut |_, _| {}).unwrap().0;
+        let text = r#"{"run":0,"outcome":"safe","time_ms":5,"energy_mj":7,"x_mm":9,"requests":1,"#;
+        let text = format!(r#"{text}"replans":0,"exposed_ms":0,"faults":[],"violated":[]}}"#);
+        let block = [(serde_json::from_str(&text).unwrap(), text.clone())];
         let (mut first, mut later) = (open(), open());
-        assert!(first.append("a block\n").is_ok());
-        assert!(later.append("b\n").is_err());
-        assert!(first.append("another\n").is_ok());
+        assert!(first.append(0, &block).is_ok());
+        assert!(later.append(0, &block).is_err());
+        assert!(first.append(1, &block).is_ok());
         let runs = fs::read_to_string(folder.join("runs.jsonl")).unwrap();
+        let sums = fs::read_to_string(folder.join("runs.sums")).unwrap();
         fs::remove_dir_all(&folder).unwrap();
-        assert_eq!(runs, "a block\nanother\n");
+        assert_eq!(runs, format!("{text}\n{text}\n"));
+        assert_eq!(sums.lines().count(), 2);
     }
+
     #[test]
     fn a_header_whose_shard_is_none_of_the_shards_is_refused() {
         let said = |index, of| {

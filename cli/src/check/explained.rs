@@ -10,8 +10,8 @@ use cotama_verification::flat::{Part, Rounds};
 use cotama_verification::property::{Formula, Property, Question};
 use std::fmt::Write;
 
-/// What may be asked to find out whether a property holds vacuously: so many questions, each among
-/// so many markings.
+/// Budget of finding out whether a property holds vacuously: so many questions, each among so many
+/// markings.
 const QUESTIONS: usize = 8;
 const MARKINGS: u64 = 100_000;
 
@@ -92,7 +92,7 @@ pub(crate) fn rest(diagnosis: &Diagnosis, shown: &[bool]) -> RestRow {
     }
 }
 
-/// What no run uses, if a property is false because of it.
+/// Returns the parts that no run uses, if a property is false because of it.
 pub(super) fn unused<'m>(
     checker: &Checker<'m>,
     property: &Property,
@@ -117,7 +117,7 @@ pub(super) fn unused_row(unused: &Unused<'_>) -> UnusedRow {
     }
 }
 
-/// That a true property holds for a reason that is none, if that is found with little effort.
+/// Returns the reason why a true property holds vacuously, if one is found with little effort.
 pub(super) fn vacuity(
     checker: &Checker<'_>,
     subject: &Subject,
@@ -163,6 +163,6 @@ pub(super) enum Vacuous {
     Because(String),
     /// No, or it was not found out among few markings.
     Not,
-    /// It has more parts than are asked about, and does not because of those that were.
+    /// The property has more parts than are asked about, and none of the parts asked is the reason.
     Unsettled,
 }

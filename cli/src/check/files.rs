@@ -7,13 +7,14 @@ use crate::render::style::NAME;
 use crate::render::visible;
 use crate::subject::Subject;
 use cotama_core::net::owned::OwnedNet;
+use cotama_core::text;
 use cotama_verification::certificate::{self, Certificate};
 use cotama_verification::check::{Answer, Model};
 use cotama_verification::diagnosis::{Diagnosis, Unused};
 use cotama_verification::property::Property;
 use std::path::{Path, PathBuf};
 
-/// Where certificates and traces are written.
+/// The paths of certificates and traces to write.
 #[derive(Debug)]
 pub(super) struct Files {
     certificate: Option<PathBuf>,
@@ -67,7 +68,7 @@ impl Files {
             }
         };
         let path = self.path(wanted, position);
-        output::file(&path, written.as_bytes())?;
+        output::file(&path, text::json(&written).to_string().as_bytes())?;
         screen.note(&format!("written: {NAME}{}{NAME:#}", path.display()));
         Ok(Some(path.display().to_string()))
     }
@@ -82,7 +83,7 @@ impl Files {
         self.write(position, screen, |form| match form {
             Form::Html => diagnosis.html(),
             Form::Svg => diagnosis.svg(),
-            Form::Json => diagnosis.json(),
+            Form::Json => text::json(&diagnosis.json()).to_string(),
         })
     }
 
@@ -102,7 +103,7 @@ impl Files {
         self.write(position, screen, |form| match form {
             Form::Html => unused.html(net.as_ref()),
             Form::Svg => unused.svg(net.as_ref()),
-            Form::Json => unused.json(),
+            Form::Json => text::json(&unused.json()).to_string(),
         })
     }
 

@@ -1,4 +1,4 @@
-//! What is asked: properties from the command line, from a file, or the laws of the model.
+//! The questions: properties from the command line, from a file, or the laws of the model.
 
 use crate::args::CheckArgs;
 use crate::catalogue;
@@ -16,7 +16,7 @@ use cotama_verification::pnml::Location;
 use cotama_verification::property::{self, Atom, Formula, Property, PropertyError, Question, mcc};
 use cotama_verification::pt::Pt;
 
-/// What is asked of a model.
+/// The questions to a model.
 #[derive(Debug, Default)]
 pub(super) struct Asked {
     pub(super) properties: Vec<Property>,
@@ -27,13 +27,20 @@ pub(super) struct Asked {
     /// Whether nobody asked: these are the laws or the usual questions.
     pub(super) is_usual: bool,
     /// The requirements that the properties stand for, one each.
-    pub(super) requirements: Vec<&'static Requirement>,
-    /// Of each of them the model that remembers what it takes, unless it takes nothing.
+    pub(super) requirements: Vec<Claim>,
+    /// For each question, the model with the observers it needs; `None` if it needs none.
     pub(super) watched: Vec<Option<Subject>>,
 }
 
-/// What is asked on the command line or in a file; without either, the laws of the model, or the
-/// usual questions.
+/// A requirement by its number, in a sentence.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Claim {
+    pub(super) id: &'static str,
+    pub(super) sentence: &'static str,
+}
+
+/// Returns the questions on the command line or in a file; without either, the laws of the model,
+/// or the usual questions.
 pub(super) fn asked(args: &CheckArgs, subject: &Subject) -> Result<Asked, Failure> {
     let pt = subject.model.pt();
     let mut properties = Vec::new();
@@ -46,6 +53,9 @@ pub(super) fn asked(args: &CheckArgs, subject: &Subject) -> Result<Asked, Failur
     if !properties.is_empty() {
         return Ok(Asked { properties, ..Asked::default() });
     }
+    if !subject.requirements.is_empty() {
+        return protocol(subject);
+    }
     let required = catalogue::requirements(&subject.name);
     if subject.rounds.is_some() && !required.is_empty() {
         return requirements(&required, subject);
@@ -55,6 +65,18 @@ pub(super) fn asked(args: &CheckArgs, subject: &Subject) -> Result<Asked, Failur
         return Ok(laws);
     }
     Ok(Asked { properties: usual(pt), is_usual: true, ..laws })
+}
+
+/// The requirements of the protocol of a team.
+fn protocol(subject: &Subject) -> Result<Asked, Failure> {
+    let mut asked = Asked { is_usual: true, ..Asked::default() };
+    for it in &subject.requirements {
+        let property = property::parse(&it.text, subject.model.pt())
+            .map_err(|error| Failure::new(format!("{}: {error}", it.id)))?;
+        asked.properties.push(Property { name: it.id.to_owned(), ..property });
+        asked.requirements.push(Claim { id: it.id, sentence: it.sentence });
+    }
+    Ok(asked)
 }
 
 /// The requirements of a system.
@@ -70,7 +92,7 @@ fn requirements(all: &[&'static Requirement], subject: &Subject) -> Result<Asked
         let pt = watched.as_ref().unwrap_or(subject).model.pt();
         let property = property::parse(it.text, pt).map_err(|error| refused(error.to_string()))?;
         asked.properties.push(Property { name: requirement.id.to_owned(), ..property });
-        asked.requirements.push(requirement);
+        asked.requirements.push(Claim { id: requirement.id, sentence: requirement.sentence });
         asked.watched.push(watched);
     }
     Ok(asked)
@@ -91,19 +113,15 @@ pub(crate) fn one(text: &str, initial: bool, subject: &Subject) -> Result<Proper
 
 fn file(path: &str, initial: bool, subject: &Subject) -> Result<Vec<Property>, Failure> {
     const WHAT: &str = "a file of properties";
-    let bytes = input::bytes(path, WHAT, input::PROPERTIES_BYTES)?;
-    kind::expect(path, &bytes, WHAT, &[Kind::Properties])?;
+    let text = kind::text(path, WHAT, input::PROPERTIES_BYTES, &[Kind::Properties])?;
     let name = input::name(path);
-    let is_xml = path.to_ascii_lowercase().ends_with(".xml") || is_markup(&bytes);
-    let properties = if is_xml {
-        mcc::read(name, &bytes, subject.model.pt(), subject.ids()).map_err(|error| {
-            let text = String::from_utf8_lossy(&bytes);
-            let text = text.trim_start_matches('\u{feff}').to_owned();
+    let properties = if text.trim_start().starts_with('<') {
+        mcc::read(name, text.as_bytes(), subject.model.pt(), subject.ids()).map_err(|error| {
             let mark = mark(&error, &text, 0);
             errors(name, text, vec![(error, mark)])
         })?
     } else {
-        lines(name, input::utf8(path, WHAT, bytes)?, initial, subject)?
+        lines(name, text, initial, subject)?
     };
     if properties.is_empty() {
         return Err(Failure::of(name, "there is no property in it").help(
@@ -111,11 +129,6 @@ fn file(path: &str, initial: bool, subject: &Subject) -> Result<Vec<Property>, F
         ));
     }
     Ok(properties)
-}
-
-fn is_markup(bytes: &[u8]) -> bool {
-    let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
-    start.starts_with(b"<") || bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff")
 }
 
 /// One property a line, with a name before a colon or without.
@@ -145,7 +158,11 @@ fn lines(
             }
         }
     }
-    if wrong.is_empty() { Ok(properties) } else { Err(errors(source, text, wrong)) }
+    if !wrong.is_empty() {
+        return Err(errors(source, text, wrong));
+    }
+    Property::tell_apart(&mut properties);
+    Ok(properties)
 }
 
 /// A property that was typed, named as it is written out. One that speaks of a single marking has
@@ -154,9 +171,11 @@ fn parsed(text: &str, initial: bool, subject: &Subject) -> Result<Property, Prop
     let (name, pt) = (text.trim(), subject.model.pt());
     let property = property::parse_with(text, pt, subject.ids())?;
     let is_state = property.question.formula().is_some_and(Formula::is_state);
-    if is_state && !initial {
+    let of_the_start = property.question.formula().is_some_and(speaks_of_the_start);
+    if (is_state || of_the_start) && !initial {
         let start = text.len() - text.trim_start().len();
-        let message = "this speaks of one marking, and no quantifier says of which".to_owned();
+        let what = if is_state { "this" } else { "a part of this" };
+        let message = format!("{what} speaks of one marking, and no quantifier says of which");
         let is_word = |it: char| it.is_alphanumeric() || matches!(it, '!' | '_' | '.');
         let shown = match visible(name) {
             _ if name.chars().count() > 40 => "(..)".to_owned(),
@@ -186,6 +205,16 @@ fn parsed(text: &str, initial: bool, subject: &Subject) -> Result<Property, Prop
     Ok(Property { name, ..property })
 }
 
+/// Whether a part of a formula stands outside of all quantifiers, and is about the first marking.
+fn speaks_of_the_start(formula: &Formula) -> bool {
+    match formula {
+        Formula::Atom(_) => true,
+        Formula::Not(inner) => speaks_of_the_start(inner),
+        Formula::And(all) | Formula::Or(all) => all.iter().any(speaks_of_the_start),
+        _ => false,
+    }
+}
+
 /// A name before a colon, and what stands after it.
 fn named(line: &str) -> (Option<&str>, &str) {
     let is_name = |name: &str| {
@@ -198,7 +227,7 @@ fn named(line: &str) -> (Option<&str>, &str) {
     }
 }
 
-/// Where an error is in a text of which the property begins at this byte.
+/// Returns the position of an error in a text of which the property begins at this byte.
 fn mark(error: &PropertyError, text: &str, start: usize) -> Option<Mark> {
     let span = start + error.at.span.start..start + error.at.span.end;
     let before = text.get(..span.start)?;
@@ -214,17 +243,14 @@ fn errors(source: &str, text: String, wrong: Vec<(PropertyError, Option<Mark>)>)
     if let Some((error, _)) = wrong.iter().find(|it| it.1.is_none()) {
         return Failure::new(error.to_string());
     }
-    let omitted = wrong.len().saturating_sub(KEPT);
-    let errors = wrong.into_iter().take(KEPT).filter_map(|(error, at)| {
-        Some(FileError {
-            message: error.message,
-            at: at?,
-            label: None,
-            help: error.help,
-            related: None,
-        })
-    });
-    FileErrors { source: source.to_owned(), text, errors: errors.collect(), omitted }.into()
+    let errors = wrong.into_iter();
+    let errors =
+        errors.filter_map(|(error, at)| Some(FileError::new(error.message, at?, error.help)));
+    let (source, errors) = (source.to_owned(), errors.collect());
+    let mut errors = FileErrors { source, text, errors, omitted: 0 }.folded();
+    errors.omitted = errors.errors.len().saturating_sub(KEPT);
+    errors.errors.truncate(KEPT);
+    errors.into()
 }
 
 /// The laws of a net.
@@ -243,8 +269,8 @@ fn laws(net: &OwnedNet) -> Asked {
     Asked { properties, left_out, are_laws, is_usual: are_laws, ..Asked::default() }
 }
 
-/// What is usually asked of a net: is there no deadlock, is it 1-safe, or else how many tokens are
-/// there, can each transition fire.
+/// Returns the usual questions to a net: is there no deadlock, is it 1-safe, or else how many
+/// tokens are there, can each transition fire.
 fn usual(pt: &Pt) -> Vec<Property> {
     let property = |name: &str, question| Property { name: name.to_owned(), question };
     let transitions = 0..pt.transitions.len() as u32;

@@ -80,29 +80,29 @@ pub(super) fn with(mut schema: Value, keyword: &str, value: Value) -> Value {
     schema
 }
 
-/// That a key has one of these words.
+/// Returns the condition that a key has one of these words.
 pub(super) fn says(key: &str, words: &[&str]) -> Value {
     json!({ "properties": { key: { "enum": words } }, "required": [key] })
 }
 
-/// That some keys are not there.
+/// Returns the condition that some keys are absent.
 pub(super) fn absent(keys: &[&str]) -> Value {
     let keys: Map<_, _> = keys.iter().map(|key| ((*key).to_owned(), false.into())).collect();
     json!({ "properties": keys })
 }
 
-/// That both hold.
+/// Returns the conjunction of two conditions.
 pub(super) fn both(one: &Value, other: &Value) -> Value {
     json!({ "allOf": [one, other] })
 }
 
-/// That of these keys those and no others are there.
+/// Returns the condition that these keys and no others of the list are there.
 pub(super) fn only(needs: &[&str], all: &[&str]) -> Value {
     let others: Vec<_> = all.iter().copied().filter(|key| !needs.contains(key)).collect();
     both(&json!({ "required": needs }), &absent(&others))
 }
 
-/// What must hold where something else does.
+/// Returns the implication of two conditions.
 pub(super) fn when(condition: &Value, then: &Value) -> Value {
     json!({ "if": condition, "then": then })
 }

@@ -29,7 +29,7 @@ pub(crate) fn of_the_robot(robot: &Analysis) -> Diagnosability<'_> {
     }
 }
 
-/// What can be told as the file says.
+/// Returns the diagnosability of the file's analysis.
 pub(crate) fn of_a_file(analysis: &Analysis) -> Diagnosability<'_> {
     let unseen = |mode: &Mode| match analysis.names(&mode.sometimes).as_slice() {
         [] => "it raises no flag, and no reason is stated".to_owned(),
@@ -193,7 +193,7 @@ fn ambiguous_case() -> AmbiguousCase<'static> {
     }
 }
 
-/// What a decision of a class does.
+/// Returns the consequence of a decision of a class.
 const fn consequence(class: Class) -> &'static str {
     match class {
         Class::Record => "it is recorded only",

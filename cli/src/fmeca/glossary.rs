@@ -1,16 +1,18 @@
-//! What the abbreviations of the page mean: only those that occur on it.
+//! The abbreviations on the page, with their meanings.
 
+use cotama_core::text::markup;
 use cotama_models::cotama::Module;
-use cotama_verification::drawing::svg::escape;
 use std::collections::HashSet;
 use std::fmt::Write;
 
 /// Abbreviations that are no module's name; failure modes stand in the table.
-const WORDS: [(&str, &str); 10] = [
+const WORDS: [(&str, &str); 12] = [
     ("FMECA", "failure modes, effects and criticality analysis"),
     ("MTBF", "mean time between failures"),
     ("RPN", "risk priority number: severity × occurrence × detection"),
-    ("COTAMA", "the control architecture of Durand et al., TAROS 2010"),
+    ("COTAMA", "contextual task management: the control architecture of Durand et al., TAROS 2010"),
+    ("TAROS", "the conference Towards Autonomous Robotic Systems"),
+    ("VI", "a section of the paper on COTAMA"),
     ("CS", "the contextual supervisor: who must react"),
     ("CPU", "the processor of the laptop"),
     ("NaN", "a value that is not a number"),
@@ -35,7 +37,7 @@ pub(super) fn section(page: &str, is_robot: bool) -> String {
     let own = if is_robot { usize::MAX } else { COMMON };
     let known = WORDS.into_iter().chain(modules).take(own);
     for (name, meaning) in known.filter(|it| words.contains(it.0)) {
-        let meaning = escape(meaning.trim().trim_end_matches('.'));
+        let meaning = markup(meaning.trim().trim_end_matches('.'));
         let _ = writeln!(html, "<div><dt>{name}</dt><dd>{meaning}</dd></div>");
     }
     html.push_str("</dl>\n</section>\n");

@@ -210,7 +210,7 @@ fn badges(group: &mut Group, mode: &Mode, (left, top): Place) {
     }
 }
 
-/// What the colours, letters and lines mean, in lines no wider than `most`.
+/// Draws the legend of colours, letters and lines, in lines no wider than `most`.
 pub(crate) fn legend(analysis: &Analysis, most: i64) -> Scene {
     let mut scene = Scene { width: 0, height: MARGIN, groups: Vec::new() };
     let mut group = Group::default();
@@ -311,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_measured_can_fail() {
+    fn the_measurements_can_fail() {
         assert!(!apart([0, 0, 10, 10], [9, 9, 20, 20]) && apart([0, 0, 10, 10], [10, 0, 20, 10]));
         assert!(
             meets(((0, 0), (10, 10)), [4, 4, 6, 6]) && !meets(((0, 0), (10, 10)), [6, 0, 10, 4])

@@ -2,6 +2,7 @@
 
 use crate::answers::fmeca::{FmecaAnswer, FmecaRow};
 use crate::render::fmeca::{heading, hours, seconds, summary, worst};
+use cotama_core::text::marked;
 use std::fmt::Write;
 
 const COLUMNS: [&str; 20] = [
@@ -47,7 +48,7 @@ pub(crate) fn write(answer: &FmecaAnswer<'_>) -> String {
     text
 }
 
-/// What a column is called: without an operator there is one severity, and only the robot has
+/// Returns the title of a column: without an operator there is one severity, and only the robot has
 /// modules.
 fn name(column: &'static str, both: bool, is_robot: bool) -> &'static str {
     match column {
@@ -97,7 +98,12 @@ fn line<'a>(text: &mut String, cells: impl Iterator<Item = &'a str>) {
 /// A text in which a bar would end the cell, and others begin HTML, links and emphasis.
 fn plain(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
-    for c in text.chars() {
+    for (c, hidden) in marked(text) {
+        if hidden {
+            safe.push('\\');
+            safe.extend(c.escape_unicode());
+            continue;
+        }
         if matches!(c, '|' | '<' | '>' | '[' | ']' | '*' | '_' | '`' | '\\') {
             safe.push('\\');
         }

@@ -58,7 +58,7 @@ pub(super) fn links(ids: &[&str]) -> String {
     ids.iter().map(link).collect::<Vec<_>>().join(" ")
 }
 
-/// What the row of a failure mode is called in the page; its parts have names of their own.
+/// Returns the anchor of a failure mode's row in the page; its parts have names of their own.
 pub(super) fn anchor(id: &str) -> String {
     let taken = ["table", "matrix", "diagrams", "diagnosability", "abbreviations", "pick"];
     // No id has a colon.

@@ -7,8 +7,8 @@ use crate::answers::fmeca::{Diagnosability, FmecaAnswer, FmecaRow, StatusRow};
 use crate::render::fmeca::{
     against, detected, heading, hours, left_out, seconds, sentence, shared, summary, worst,
 };
+use cotama_core::text::markup;
 use cotama_models::fmeca::Analysis;
-use cotama_verification::drawing::svg::escape;
 use std::fmt::{Display, Write};
 
 /// Writes into a page, which cannot fail.
@@ -37,12 +37,12 @@ pub(crate) fn write(analysis: &Analysis, answer: &FmecaAnswer<'_>) -> String {
          <a href=\"#diagrams\">Cause-effect diagrams</a> \
          <a href=\"#diagnosability\">What cannot be told apart</a> \
          <a href=\"#abbreviations\">Abbreviations</a></nav>\n",
-        escape(&heading(answer)),
+        markup(&heading(answer)),
         include_str!("page.css"),
         sheet::STYLE,
-        escape(title.trim_end_matches('.')),
-        escape(&summary(answer)),
-        escape(&worst(&answer.rows)),
+        markup(title.trim_end_matches('.')),
+        markup(&summary(answer)),
+        markup(&worst(&answer.rows)),
     );
     table(&mut page, answer);
     page.push_str(&matrix(&answer.rows, answer.period_h));
@@ -125,11 +125,11 @@ fn columns(answer: &FmecaAnswer<'_>) -> Vec<Column> {
         ("What fails", "wide", |row| {
             let stays = row.persistence.map_or_else(String::new, |it| format!("; {it}"));
             with(
-                format!("{}: {}", escape(row.component), escape(row.failure)),
-                format!("{}{stays}", escape(row.function)),
+                format!("{}: {}", markup(row.component), markup(row.failure)),
+                format!("{}{stays}", markup(row.function)),
             )
         }),
-        ("Cause and effect", "wide", |row| with(escape(row.cause), escape(row.effect))),
+        ("Cause and effect", "wide", |row| with(markup(row.cause), markup(row.effect))),
         (if both { "Robot drives" } else { "Severity" }, "", |row| pill(row.severity_autonomous)),
     ];
     if both {
@@ -140,9 +140,9 @@ fn columns(answer: &FmecaAnswer<'_>) -> Vec<Column> {
     columns.push(("Seen by", "wide", seen));
     if lost {
         let name = if answer.is_robot { "Modules lost" } else { "Lost" };
-        columns.push((name, "", |row| escape(row.loss)));
+        columns.push((name, "", |row| markup(row.loss)));
     }
-    columns.push(("Reaction", "wide", |row| with(escape(row.reaction), escape(&row.event))));
+    columns.push(("Reaction", "wide", |row| with(markup(row.reaction), markup(&row.event))));
     columns.push(("MTBF", "n", |row| {
         let stated = if row.rate_label == "assumed" { "" } else { row.rate_label };
         with(hours(row.mtbf_mh), stated.to_owned())
@@ -169,17 +169,17 @@ fn pill(name: &str) -> String {
 
 fn seen(row: &FmecaRow<'_>) -> String {
     match row.undetectable_reason {
-        Some(reason) => format!("<b>undetectable</b>: {}", escape(reason)),
+        Some(reason) => format!("<b>undetectable</b>: {}", markup(reason)),
         None if row.flags_always.is_empty() => match row.flags_sometimes.as_slice() {
             [] => "<b>not detected</b>, and no reason is stated".to_owned(),
-            flags => format!("<b>not always</b>: {}", escape(&flags.join(", "))),
+            flags => format!("<b>not always</b>: {}", markup(&flags.join(", "))),
         },
         None => {
             let flags = row.flags_always.join(", ");
             let by = if row.observer.is_empty() { &flags } else { row.observer };
             let how = if row.detection.is_empty() { &flags } else { row.detection };
-            let within = format!("within {}: {}", seconds(row.detection_latency_ms), escape(how));
-            with(escape(by), within)
+            let within = format!("within {}: {}", seconds(row.detection_latency_ms), markup(how));
+            with(markup(by), within)
         }
     }
 }
@@ -279,8 +279,8 @@ fn probes(page: &mut String, it: &Diagnosability<'_>) {
         put!(
             page,
             "<tr><th scope=\"row\">{}<td>{}<td>{}{needs}</tr>",
-            escape(probe.name),
-            escape(probe.doc),
+            markup(probe.name),
+            markup(probe.doc),
             links(&probe.shows)
         );
     }
@@ -315,8 +315,8 @@ fn status(page: &mut String, row: &StatusRow<'_>, several: bool) {
                 page,
                 "<tr><th scope=\"row\">{}<td>{}<td>{}</tr>",
                 links(&pair.shared.modes),
-                escape(&shared(&pair.shared.flags, &pair.shared.flags_optional)),
-                escape(&probes)
+                markup(&shared(&pair.shared.flags, &pair.shared.flags_optional)),
+                markup(&probes)
             );
         }
         page.push_str("</tbody>\n</table></div>\n");
@@ -324,7 +324,7 @@ fn status(page: &mut String, row: &StatusRow<'_>, several: bool) {
     if let Some(more) = left_out(row) {
         put!(page, "<p>{}.</p>", more);
     }
-    put!(page, "<p>Least set: {}.</p>\n<dl>", escape(&against(row)));
+    put!(page, "<p>Least set: {}.</p>\n<dl>", markup(&against(row)));
     for unseen in &row.undetectable {
         put!(
             page,
@@ -340,7 +340,7 @@ fn status(page: &mut String, row: &StatusRow<'_>, several: bool) {
 fn code(text: &str) -> String {
     let mut out = String::new();
     for (at, part) in text.split('`').enumerate() {
-        let part = escape(part);
+        let part = markup(part);
         if at % 2 == 1 {
             let _ = write!(out, "<code>{part}</code>");
         } else {

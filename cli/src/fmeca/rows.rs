@@ -44,7 +44,7 @@ fn counts(analysis: &Analysis, rows: &[FmecaRow<'_>]) -> CountsRow {
 
 fn row<'a>(analysis: &'a Analysis, it: &'a Mode, typed: Option<FailureMode>) -> FmecaRow<'a> {
     let rule = typed.map(FailureMode::rule);
-    // Of a fault of one module, whichever it is, no module is sure to be gone.
+    // A fault of one module, whichever it is, takes no module for sure.
     let gone = typed.map(|it| Modules::ALL.without(it.health(Modules::NONE).available()));
     let lost = rule.into_iter().flat_map(|it| it.lost.iter());
     let named = |set: Option<Modules>| set.map_or_else(Vec::new, modules);
@@ -83,7 +83,7 @@ fn row<'a>(analysis: &'a Analysis, it: &'a Mode, typed: Option<FailureMode>) -> 
     }
 }
 
-/// What becomes of a failure mode while the robot drives itself; in a file, as it says.
+/// Returns the outcome of a failure mode while the robot drives itself; in a file, as it says.
 fn event(it: &Mode, typed: Option<FailureMode>) -> String {
     match typed.map(|it| it.rule().report) {
         None => it.event.clone(),

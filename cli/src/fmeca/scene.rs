@@ -1,7 +1,8 @@
 //! Drawings as data: shapes and texts with their places, so that what is drawn can also be
 //! measured.
 
-use cotama_verification::drawing::svg::{bold_width, escape, width};
+use cotama_core::text::markup;
+use cotama_verification::drawing::svg::{bold_width, width};
 use std::fmt::Write;
 
 /// How a text looks.
@@ -22,7 +23,7 @@ pub(crate) enum Face {
 }
 
 impl Face {
-    /// Its size in pixels.
+    /// Returns the size in pixels.
     const fn size(self) -> i64 {
         match self {
             Self::Head => 15,
@@ -143,13 +144,13 @@ impl Group {
 }
 
 impl Scene {
-    /// Its shapes as SVG elements, moved to a place.
+    /// Returns the shapes as SVG elements, moved to a place.
     pub(crate) fn elements(&self, (right, down): Place) -> String {
         let mut out = format!("<g transform=\"translate({right} {down})\">\n");
         for group in &self.groups {
             out.push_str("<g>");
             if !group.title.is_empty() {
-                let _ = write!(out, "<title>{}</title>", escape(&group.title));
+                let _ = write!(out, "<title>{}</title>", markup(&group.title));
             }
             for item in &group.items {
                 element(&mut out, item);
@@ -184,13 +185,13 @@ fn element(out: &mut String, item: &Item) {
                 out,
                 "<text class=\"{}\" x=\"{x}\" y=\"{y}\">{}</text>",
                 face.class(),
-                escape(text)
+                markup(text)
             )
         }
     };
 }
 
-/// What tests measure.
+/// Measurements for tests.
 #[cfg(test)]
 impl Scene {
     /// The texts with their boxes: left, top, right, bottom.
@@ -201,7 +202,7 @@ impl Scene {
                 let wide = face.width(text);
                 let is_centred = matches!(face, Face::Badge | Face::DarkBadge);
                 let left = if is_centred { x - wide / 2 } else { x };
-                // Of a line of Helvetica, 0.72 is above the base line and 0.21 below.
+                // A line of Helvetica has 0.72 above the base line and 0.21 below.
                 let (up, down) = ((face.size() * 72 + 99) / 100, (face.size() * 21 + 99) / 100);
                 Some((text.as_str(), [left, y - up, left + wide, y + down]))
             }

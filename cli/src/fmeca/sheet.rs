@@ -2,8 +2,8 @@
 
 use super::ishikawa::{diagram, legend};
 use super::scene::Scene;
+use cotama_core::text::markup;
 use cotama_models::fmeca::Analysis;
-use cotama_verification::drawing::svg::escape;
 
 /// The style of diagrams, in files and in the page.
 pub(crate) const STYLE: &str = include_str!("diagram.css");
@@ -42,7 +42,7 @@ fn inline(label: &str, scene: &Scene) -> String {
     format!(
         "<svg class=\"causes\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\
          \" role=\"img\" aria-label=\"{}\">\n{}</svg>\n",
-        escape(label),
+        markup(label),
         scene.elements((0, 0))
     )
 }
@@ -71,6 +71,6 @@ fn file(title: &str, analysis: &Analysis, diagrams: &[Scene]) -> String {
          aria-labelledby=\"title\">\n\
          <title id=\"title\">{}</title>\n<style>\n{STYLE}</style>\n\
          <rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\n{body}</svg>\n",
-        escape(title)
+        markup(title)
     )
 }

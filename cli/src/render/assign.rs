@@ -4,7 +4,7 @@ use super::numbers::{count, grouped};
 use super::style::{BAD, FAINT, GOOD, HEADING, NAME, NOTICE};
 use super::table::{Cell, Table};
 use super::{described, visible, wrapped};
-use crate::answers::assign::{AssignAnswer, AssignStatus, Certificate, GreedyRow, PlanRow};
+use crate::answers::assign::{AssignAnswer, AssignStatus, Certificate, GreedyRow, ProofRow};
 use cotama_models::team::instance::Instance;
 use std::fmt::Write;
 
@@ -149,14 +149,21 @@ fn proof(instance: &Instance, answer: &AssignAnswer) -> String {
         Certificate::Hall => {
             let why = answer.why_infeasible.as_ref();
             let (tasks, robots) = why.map_or((0, 0), |it| (it.tasks.len(), it.robots.len()));
-            format!(
-                "{} need a robot each, and {} can do any of them",
-                count(tasks as u64, "task"),
-                match robots {
-                    0 => "no robot".to_owned(),
-                    it => format!("only {}", count(it as u64, "robot")),
-                }
-            )
+            let named = |it: &&cotama_models::team::instance::InstanceTask| {
+                why.is_some_and(|why| why.tasks.contains(&it.name))
+            };
+            let several = instance.tasks.iter().filter(named).any(|it| it.is_for_several);
+            let few = match robots {
+                0 => "no robot".to_owned(),
+                it => format!("only {}", count(it as u64, "robot")),
+            };
+            let tasks = count(tasks as u64, "task");
+            if several {
+                let needed = count(robots as u64 + 1, "robot");
+                format!("{tasks} with roles that need {needed}, and {few} can fill any of these")
+            } else {
+                format!("{tasks} need a robot each, and {few} can do any of them")
+            }
         }
         Certificate::Search { steps, nodes } => {
             let left = match answer.status {
@@ -184,7 +191,7 @@ fn priced(instance: &Instance, prices: &[u64]) -> Option<String> {
 }
 
 /// Why a plan costs no less.
-fn why(instance: &Instance, plan: &PlanRow, parts: u32) -> String {
+fn why(instance: &Instance, plan: &ProofRow, parts: u32) -> String {
     let cost = plan.cost.map_or_else(|| "impossible".into(), |it| amount(it, parts));
     let name = format!("{NAME}{}{NAME:#} {cost}: ", visible(&plan.plan));
     let (roles, robots) = (plan.roles.as_deref(), plan.robots.as_deref());
@@ -207,7 +214,7 @@ fn why(instance: &Instance, plan: &PlanRow, parts: u32) -> String {
     format!("{name}{said}")
 }
 
-/// What greedy rounds cost, and lose.
+/// Returns the cost and the loss of greedy rounds.
 fn greedy_rounds(greedy: &GreedyRow, answer: &AssignAnswer, parts: u32) -> String {
     let cost = amount(greedy.cost, parts);
     let rounds = count(greedy.rounds as u64, "round");

@@ -1,19 +1,21 @@
-//! What a campaign comes to.
+//! The screen of a campaign.
 #![allow(clippy::cast_precision_loss)] // shares of runs need no more than 52 bits
 
-use super::numbers::grouped;
+use super::numbers::{count, grouped};
 use super::style::{BAD, FAINT, GOOD, NAME, PLAIN};
 use super::table::{Cell, Table};
 use super::visible;
-use crate::answers::campaign::{CampaignAnswer, Measured, PolicyRow};
+use crate::answers::campaign::{CampaignAnswer, DecisionRow, Mean, Measured, PolicyRow};
+use crate::names::quoted;
 use std::fmt::Write;
 
-/// The screen of a campaign.
-pub(crate) fn screen(answer: &CampaignAnswer) -> String {
+/// The screen of a campaign, for a window of this width.
+pub(crate) fn screen(answer: &CampaignAnswer, width: usize) -> String {
     if !answer.policies.is_empty() {
-        return policies(answer);
+        return policies(answer, width);
     }
     let mut text = head(answer);
+    let _ = writeln!(text, "  {FAINT}planner: {}{FAINT:#}\n", visible(&answer.planner));
     let outcomes = answer.outcomes;
     let mut table = Table::new(Vec::new());
     for (name, count) in
@@ -42,29 +44,43 @@ pub(crate) fn screen(answer: &CampaignAnswer) -> String {
     text += &table.render(usize::MAX);
     causes(&mut text, answer);
     if let Some(it) = answer.decision {
-        let verdict = match it.verdict {
-            "at_most" => format!("the probability of failure is at most {}", it.at_most),
-            "more" => format!("the probability of failure is more than {}", it.at_most),
-            _ => format!("it is not decided whether the probability is at most {}", it.at_most),
-        };
-        let _ = writeln!(
-            text,
-            "\n{verdict}\n  after {} runs; wrong at most once in {:.0}, where it is not between {} \
-             and {}",
-            number(it.runs),
-            1.0 / (1.0 - it.confidence),
-            it.at_most,
-            it.more_from
-        );
-    }
-    if answer.failure_probability.is_none() && answer.decision.is_none() && answer.shard.is_none() {
-        text += "\nPlans were not drawn independently: shares are no probabilities.\n";
+        text.push_str(&decided(it, answer.failing));
+    } else if answer.failure_probability.is_none() && answer.shard.is_none() {
+        text += "\nPlans were chosen, not drawn independently: shares are no probabilities.\n";
     }
     let _ = writeln!(text, "\n{FAINT}digest {}{FAINT:#}", answer.digest);
     if let Some(report) = &answer.report {
         let _ = writeln!(text, "report: {NAME}{}{NAME:#}", visible(report));
     }
+    let named = |it: &crate::answers::campaign::FailureRow| {
+        let file = it.fault_file.as_deref().filter(|_| it.scenario.contains("\nmission = "))?;
+        Some(format!("cotama replay {}", quoted(file)))
+    };
+    if let Some(next) = answer.failures.first().and_then(named) {
+        let _ = writeln!(text, "next: {NAME}{}{NAME:#}", visible(&next));
+    }
     text
+}
+
+fn decided(it: DecisionRow, failing: u64) -> String {
+    let what = if it.exact { "share of failing plans" } else { "probability of failure" };
+    let verdict = match it.verdict {
+        "at_most" => format!("the {what} is at most {}", it.at_most),
+        "more" => format!("the {what} is more than {}", it.at_most),
+        _ => format!("it is not decided whether the {what} is at most {}", it.at_most),
+    };
+    if it.exact {
+        let (runs, failing) = (number(it.runs), number(failing));
+        return format!("\n{verdict}\n  exactly: {failing} of the {runs} plans that there are\n");
+    }
+    format!(
+        "\n{verdict}\n  after {} runs; wrong at most once in {:.0}, where it is not between {} and \
+         {}\n",
+        number(it.runs),
+        1.0 / (1.0 - it.confidence),
+        it.at_most,
+        it.more_from
+    )
 }
 
 fn head(answer: &CampaignAnswer) -> String {
@@ -75,9 +91,9 @@ fn head(answer: &CampaignAnswer) -> String {
         it => format!("{BAD}{} runs break a requirement{BAD:#}", number(it)),
     };
     format!(
-        "{}, {} runs, {}, seed {}{part}: {verdict}\n\n",
+        "{}, {}, {}, seed {}{part}: {verdict}\n\n",
         visible(&answer.mission),
-        number(answer.runs),
+        count(answer.runs, "run"),
         answer.strategy,
         answer.seed
     )
@@ -89,9 +105,9 @@ fn causes(text: &mut String, answer: &CampaignAnswer) {
     }
     let _ = writeln!(
         text,
-        "\ncauses, of {} failing runs made small in {} runs",
-        number(answer.shrunk),
-        number(answer.shrinking_runs)
+        "\ncauses, of {} made small in {}",
+        count(answer.shrunk, "failing run"),
+        count(answer.shrinking_runs, "run")
     );
     let mut table = Table::new(Vec::new()).left(1).left(2).left(3);
     for row in &answer.failures {
@@ -112,47 +128,58 @@ fn causes(text: &mut String, answer: &CampaignAnswer) {
     }
 }
 
-fn policies(answer: &CampaignAnswer) -> String {
+fn policies(answer: &CampaignAnswer, width: usize) -> String {
     let mut text = format!(
-        "{}, {} plans of faults, {}, seed {}\n\n",
+        "{}, {} of faults, {}, seed {}\n\n",
         visible(&answer.mission),
-        number(answer.runs),
+        count(answer.runs, "plan"),
         answer.strategy,
         answer.seed
     );
     let words = ["", "completed", "safe", "failed", "against the first", "time", "energy", "asked"];
     let mut table = Table::new(vec![words.map(Cell::faint).to_vec()]);
     let row = |it: &PolicyRow| {
-        let plus = |it: Measured| {
-            let half = (it.high - it.low) / 2.0;
+        let plus = |it: Mean| {
+            let half = it.low.zip(it.high).map(|(low, high)| (high - low) / 2.0);
             (it.estimate, half)
         };
         let (time, energy, asked) =
             (plus(it.duration_ms), plus(it.energy_mj), plus(it.operator_requests));
-        let thousand = |(value, half): (f64, f64), unit: &str| {
-            format!("{:.1} ± {:.1} {unit}", value / 1_000.0, half / 1_000.0)
+        let thousand = |(value, half): (f64, Option<f64>), unit: &str| {
+            let half = half.map_or_else(String::new, |it| format!(" ± {:.1}", it / 1_000.0));
+            format!("{:.1}{half} {unit}", value / 1_000.0)
         };
         let against = it.success_difference.map_or("·".to_owned(), |it| {
-            format!("{:+.1} to {:+.1} %", 100.0 * it.low, 100.0 * it.high)
+            format!("{:+.1} to {:+.1} %", 100.0 * it.low, 100.0 * it.high).replace('-', "−")
         });
         let cells = [
             it.policy.to_owned(),
-            format!("{} {}", number(it.outcomes.completed), interval(it.success)),
+            it.success.map_or_else(
+                || number(it.outcomes.completed),
+                |success| format!("{} {}", number(it.outcomes.completed), interval(success)),
+            ),
             number(it.outcomes.safe),
             number(it.outcomes.failed),
             against,
             thousand(time, "s"),
             thousand(energy, "J"),
-            format!("{:.2} ± {:.2}", asked.0, asked.1),
+            format!(
+                "{:.2}{}",
+                asked.0,
+                asked.1.map_or_else(String::new, |it| format!(" ± {it:.2}"))
+            ),
         ];
         cells.map(|it| Cell::new(it, PLAIN)).to_vec()
     };
     answer.policies.iter().for_each(|it| table.row(row(it)));
-    text += &table.render(usize::MAX);
+    text += &table.render(width);
+    if answer.policies.iter().any(|it| it.success.is_none()) {
+        text += "\nPlans were chosen, not drawn independently: numbers are of these plans alone.\n";
+    }
     text
 }
 
-pub(super) fn number(it: u64) -> String {
+pub(crate) fn number(it: u64) -> String {
     grouped(&it.to_string())
 }
 
@@ -162,12 +189,12 @@ pub(crate) fn percent(share: f64) -> String {
     if percent == 0.0 || percent >= 1.0 {
         format!("{percent:.1} %")
     } else {
-        let digits = usize::try_from(-percent.log10().floor() as i64).unwrap_or(1).min(12) + 1;
+        let digits = usize::try_from(-libm::log10(percent).floor() as i64).unwrap_or(1).min(12) + 1;
         format!("{percent:.digits$} %")
     }
 }
 
-pub(super) fn interval(it: Measured) -> String {
+pub(crate) fn interval(it: Measured) -> String {
     format!("({} to {})", percent(it.low), percent(it.high))
 }
 

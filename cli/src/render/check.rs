@@ -1,15 +1,14 @@
 //! The screen of `cotama check`.
 
 use super::numbers::grouped;
-use super::style::{BAD, FAINT, GOOD, HEADING, NOTICE};
+use super::style::{BAD, FAINT, GOOD, HEADING, NOTICE, Style};
 use super::{visible, wrapped};
 use crate::answers::check::{
     Amount, CheckAnswer, EvidenceName, ResponseRow, ResultRow, VerdictName,
 };
-use anstyle::Style;
 use std::fmt::Write;
 
-/// What is checked.
+/// Returns the head of a check: the model.
 pub(crate) fn head(model: &str, timed: bool, notes: &[String], width: usize) -> String {
     let how = if timed { "  with its intervals of time" } else { "" };
     let mut text = format!("{HEADING}{}{HEADING:#}{FAINT}{how}{FAINT:#}\n", visible(model));

@@ -12,9 +12,21 @@ const SHOWN: usize = 12;
 /// Whether it conforms; where not, the line, why, and what was allowed.
 pub(crate) fn screen(answer: &ConformAnswer, text: &str, width: usize) -> String {
     let mut said = format!("{HEADING}{}{HEADING:#}", visible(&answer.model));
+    if let Some(line) = answer.unknown_from {
+        let _ = writeln!(said, ": {BAD}unknown{BAD:#}");
+        let whole = format!(
+            "too many states are possible by line {line} of {}: log what fires, or allow more with \
+             `--max-states`",
+            visible(&answer.trace)
+        );
+        return said + &wrapped(&whole, width, "  ") + "\n";
+    }
     let Some(departs) = &answer.departs else {
         let _ = writeln!(said, ": {GOOD}conforms{GOOD:#}");
         let mut counts = vec![count(answer.events, "event"), count(answer.fired, "firing")];
+        if answer.outputs > 0 {
+            counts.push(count(answer.outputs, "output"));
+        }
         if answer.rounds > 0 {
             counts.push(count(answer.rounds, "round"));
         }

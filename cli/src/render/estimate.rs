@@ -7,7 +7,7 @@ use crate::answers::check::VerdictName;
 use crate::answers::estimate::EstimateAnswer;
 use std::fmt::Write;
 
-/// What random runs show, and the runs that show it.
+/// Returns the screen of random runs, and of the runs that show a property.
 pub(crate) fn screen(answer: &EstimateAnswer, texts: &[Option<String>], width: usize) -> String {
     let mut text = format!(
         "{HEADING}{}{HEADING:#}, {} runs of at most {} steps, seed {}\n",

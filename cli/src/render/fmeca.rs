@@ -1,10 +1,9 @@
 //! The screens of `cotama fmeca`.
 
-use super::style::{BAD, FAINT, GOOD, HEADING, NAME, NOTICE, PLAIN};
+use super::style::{BAD, FAINT, GOOD, HEADING, NAME, NOTICE, PLAIN, Style};
 use super::table::{Cell, Table};
 use super::{described, wrapped};
 use crate::answers::fmeca::{Diagnosability, FmecaAnswer, FmecaRow, StatusRow};
-use anstyle::Style;
 use std::fmt::Write;
 
 /// Narrower screens show the rows one below the other, as cells would be too narrow to read.
@@ -20,7 +19,7 @@ const FIXED: usize = 2 + 2 + 6 + 2 + 8 + 2 + 4 + 4 * 2;
 /// Longer ids leave no place for words beside them.
 const LONGEST_ID: usize = 12;
 
-/// What the analysis is.
+/// Returns the heading of the analysis.
 pub(crate) fn heading(answer: &FmecaAnswer<'_>) -> String {
     let link = if answer.is_robot { " of " } else { ": " };
     format!("FMECA{link}{}", answer.title)
@@ -249,7 +248,8 @@ fn list(rows: &[FmecaRow<'_>], longest: usize, width: usize) -> String {
     text
 }
 
-/// What cannot be told apart, status by status, and what would help.
+/// Returns the failure modes that cannot be told apart, status by status, and the probes that would
+/// help.
 pub(crate) fn diagnosability(it: &Diagnosability<'_>, width: usize) -> String {
     let mut text = String::new();
     for row in &it.statuses {
@@ -292,7 +292,7 @@ pub(crate) fn shared(flags: &[&str], optional: &[&str]) -> String {
     format!("{}{more}", flags.join(" + "))
 }
 
-/// What probes there are against all that is alike, in words.
+/// Returns the probes against all pairs that look alike, in words.
 pub(crate) fn against(row: &StatusRow<'_>) -> String {
     let open: Vec<_> = row
         .pairs
@@ -318,7 +318,7 @@ pub(crate) fn detected(row: &StatusRow<'_>) -> String {
     format!("{} {seen} detected, {} {not} not", row.detectable, row.undetectable.len())
 }
 
-/// What a limit keeps back, in words.
+/// Returns the parts that a limit keeps back, in words.
 pub(crate) fn left_out(row: &StatusRow<'_>) -> Option<String> {
     let pairs = match row.pairs_left_out {
         0 => None,

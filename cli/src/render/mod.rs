@@ -1,4 +1,4 @@
-//! What people see.
+//! The screens for people.
 
 pub(crate) mod allocate;
 pub(crate) mod assign;
@@ -23,38 +23,27 @@ pub(crate) mod table;
 pub(crate) mod team;
 pub(crate) mod verify;
 
-/// The command that suggests itself, if one does.
+/// The command that suggests itself, if one does that can be typed as it is shown.
 fn next(command: Option<String>) -> String {
-    command.map_or_else(String::new, |it| {
-        format!("\nnext: {NAME}{}{NAME:#}\n", visible(&it), NAME = style::NAME)
-    })
+    command
+        .filter(|it| visible(it) == *it)
+        .map_or_else(String::new, |it| format!("\nnext: {NAME}{it}{NAME:#}\n", NAME = style::NAME))
 }
 
-/// A text of a file as a screen shows it: what a terminal would obey is written as its code.
+/// A name or a text of a file within a line of a screen: what a terminal would obey is written as
+/// its code, line ends too.
 pub(crate) fn visible(text: &str) -> String {
-    let obeyed = |c: char| {
-        c.is_control()
-            || ('\u{200e}'..='\u{200f}').contains(&c)
-            || ('\u{2028}'..='\u{202e}').contains(&c)
-            || ('\u{2066}'..='\u{2069}').contains(&c)
-    };
-    let mut shown = String::with_capacity(text.len());
-    for c in text.chars() {
-        if obeyed(c) {
-            shown.extend(c.escape_unicode());
-        } else {
-            shown.push(c);
-        }
-    }
-    shown
+    cotama_core::text::visible(text).to_string()
 }
 
 /// A text in lines of at most `width`, as far as its words allow, each behind `indent`.
 pub(crate) fn wrapped(text: &str, width: usize, indent: &str) -> String {
+    let seen = |text: &str| style::unstyled(text).chars().count();
     let mut lines = String::new();
     let mut line = indent.to_owned();
-    for word in text.split(' ') {
-        if line.len() > indent.len() && line.chars().count() + 1 + word.chars().count() > width {
+    for word in fold::words(text) {
+        let used = seen(&line);
+        if line.len() > indent.len() && used + 1 + seen(word) > width {
             lines += &line;
             lines.push('\n');
             line = format!("{indent}  ");
@@ -70,7 +59,7 @@ pub(crate) fn wrapped(text: &str, width: usize, indent: &str) -> String {
 pub(crate) fn described(
     term: &str,
     column: usize,
-    style: anstyle::Style,
+    style: style::Style,
     text: &str,
     width: usize,
 ) -> String {
@@ -89,18 +78,19 @@ pub(crate) fn described(
 
 #[cfg(test)]
 mod tests {
+    use super::style::PLAIN;
     use super::{described, visible, wrapped};
 
     #[test]
-    fn what_a_terminal_obeys_is_written_as_its_code() {
+    fn control_characters_are_written_as_their_codes() {
         assert_eq!(visible("a\u{1b}[31m\u{202e}é"), "a\\u{1b}[31m\\u{202e}é");
     }
 
     #[test]
     fn a_text_stands_beside_its_term() {
-        let text = described("term", 6, anstyle::Style::new(), "one two three four five six", 20);
+        let text = described("term", 6, PLAIN, "one two three four five six", 20);
         assert_eq!(text, "  term    one two three four\n          five six\n");
-        assert_eq!(described("term", 4, anstyle::Style::new(), "", 80), "  term\n");
+        assert_eq!(described("term", 4, PLAIN, "", 80), "  term\n");
     }
 
     #[test]

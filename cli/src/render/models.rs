@@ -207,11 +207,11 @@ fn more(all: usize) -> String {
 }
 
 fn next(row: &ModelRow) -> String {
-    // What came from standard input is gone.
-    if row.name == "-" {
+    // Text from standard input is gone.
+    let name = crate::names::quoted(&row.name);
+    if row.name == "-" || visible(&name) != name {
         return String::new();
     }
-    let name = visible(&crate::names::quoted(&row.name));
     let commands = match row.kind {
         ModelKind::Net => vec![format!("simulate {name}"), format!("export {name} --format svg")],
         ModelKind::Family => {

@@ -51,7 +51,7 @@ pub(crate) fn short_metres(mm: u64) -> String {
 /// A count and its noun.
 pub(crate) fn count(number: u64, noun: &str) -> String {
     let s = if number == 1 { "" } else { "s" };
-    format!("{number} {noun}{s}")
+    format!("{} {noun}{s}", grouped(&number.to_string()))
 }
 
 #[cfg(test)]

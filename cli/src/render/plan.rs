@@ -1,4 +1,5 @@
-//! The screen of `cotama plan`: the activities and the plan as in the paper's Tables 5 and 6.
+//! The screen of `cotama plan`: the activities and the plan as in Tables 5 and 6 of Lambert et al.
+//! 2024.
 
 use super::numbers::{count, grouped, milli, short_metres};
 use super::reason::reason;
@@ -33,12 +34,13 @@ pub(crate) fn screen(answer: &PlanAnswer, next: Option<String>, width: usize) ->
         grouped(&answer.combinations),
     );
     text += &activities(answer).render(width);
+    text += &harmless(answer);
     if answer.activities.len() > SHOWN {
         let _ =
             writeln!(text, "  and {} more activities: see --json", answer.activities.len() - SHOWN);
     }
     let who = match (answer.allocator, answer.objective) {
-        (Some("panorama"), _) => ", found by the rule of PANORAMA".to_owned(),
+        (Some("panorama"), _) => ", by the rule of PANORAMA, Lambert et al. 2024".to_owned(),
         (_, "paper") => String::new(),
         (_, objective) => format!(" for the objective {objective}"),
     };
@@ -55,6 +57,19 @@ pub(crate) fn screen(answer: &PlanAnswer, next: Option<String>, width: usize) ->
         text += &reason(why, width);
     }
     text + &super::next(next)
+}
+
+/// Says why no activity is as fast as the robot can be, where that is so.
+fn harmless(answer: &PlanAnswer) -> String {
+    let (most, harmless) = (answer.speed_robot_mm_s, answer.speed_harmless_mm_s);
+    let is_limit = |it: &crate::answers::ActivityRow| it.speed_max_mm_s == harmless;
+    if harmless >= most || !answer.activities.iter().any(is_limit) {
+        return String::new();
+    }
+    format!(
+        "  {FAINT}not {most} mm/s: above {harmless} mm/s an impact reaches impact_energy_max_mj\
+         {FAINT:#}\n"
+    )
 }
 
 fn activities(answer: &PlanAnswer) -> Table {
@@ -87,7 +102,7 @@ fn activities(answer: &PlanAnswer) -> Table {
     let plan = || answer.plan.iter().take(SHOWN);
     let mut families = Families::default();
     let choices = plan().map(|row| Cell::new(&row.choice, families.style(&row.choice)));
-    let mut row = vec![Cell::new("plan RAS0", HEADING)];
+    let mut row = vec![Cell::new("plan", HEADING)];
     row.extend(choices);
     table.row(row);
     let speeds = plan().map(|row| match row.speed_mm_s {
@@ -128,7 +143,8 @@ fn totals(answer: &PlanAnswer) -> String {
         (Some(bound), "quality") if answer.status != Status::Optimal => format!("at most {bound}"),
         _ => String::new(),
     };
-    table.row(vec![Cell::plain("quality"), Cell::plain(quality.to_string()), Cell::plain(bound)]);
+    let of = if bound.is_empty() { "sum of options".to_owned() } else { bound };
+    table.row(vec![Cell::plain("quality"), Cell::plain(quality.to_string()), Cell::faint(of)]);
     table.render(usize::MAX)
 }
 

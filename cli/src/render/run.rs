@@ -1,13 +1,15 @@
-//! The screen of `cotama run`: the plans as in the paper's Table 7, the margins over the run, what
-//! happened.
+//! The screen of `cotama run`: the plans as in Table 7 of Lambert et al. 2024, the margins over the
+//! run, what happened.
 
 use super::numbers::{count, joules, metres, milli, seconds};
 use super::reason::reason;
 use super::sparkline::{marks, sparkline};
 use super::style::{BAD, FAINT, Families, GOOD, HEADING, NAME, NOTICE, PLAIN};
 use super::table::{Cell, Table};
-use crate::answers::{Outcome, PlanMade, RunBody};
-use cotama_sim::trace::{Record, RunFaults, Trace};
+use crate::answers::{
+    EndDifference, Outcome, PlanMade, RecordDifference, RecordedFailure, ReplayAnswer, RunBody,
+};
+use cotama_sim::trace::{Margins, Record, RunFaults, Trace};
 use std::fmt::Write;
 
 /// The most plans, activities and events that are shown.
@@ -40,19 +42,76 @@ pub(crate) fn screen(
         text += &reason(why, width);
     }
     text += &ending(body);
-    if let Some(next) = next {
-        let _ = writeln!(text, "next: {NAME}{}{NAME:#}", super::visible(&next));
+    if let Some(next) = next.filter(|it| super::visible(it) == *it) {
+        let _ = writeln!(text, "next: {NAME}{next}{NAME:#}");
     }
     text
 }
 
-/// One line that says whether the trace came out the same.
-pub(crate) fn identical(same: bool) -> String {
-    if same {
-        format!("{GOOD}identical{GOOD:#}: the run was the same again, in every record\n")
-    } else {
-        format!("{BAD}not identical{BAD:#}: the run differs from what was stored\n")
+/// Whether a trace came out the same, or a failure came back.
+pub(crate) fn compared(answer: &ReplayAnswer) -> String {
+    if let Some(failure) = &answer.failure {
+        return returned(failure, answer.returns == Some(true), &answer.planner);
     }
+    match answer.identical {
+        None => "nothing to compare with: the file records no end; `cotama campaign` writes files \
+                 that do\n"
+            .to_owned(),
+        Some(identical) => records_compared(identical, answer.difference.as_ref()),
+    }
+}
+
+/// Whether a trace came out the same.
+pub(crate) fn records_compared(identical: bool, difference: Option<&RecordDifference>) -> String {
+    if identical {
+        return format!("{GOOD}identical{GOOD:#}: the run was the same again, in every record\n");
+    }
+    let place = difference.map_or_else(String::new, different);
+    format!("{BAD}not identical{BAD:#}: the run differs from what was stored\n{place}")
+}
+
+fn different(it: &RecordDifference) -> String {
+    let there = |value: &Option<String>| {
+        let value = value.as_deref().map_or_else(|| "nothing".to_owned(), super::visible);
+        if value.chars().count() > 60 {
+            value.chars().take(59).chain(['…']).collect()
+        } else {
+            value
+        }
+    };
+    let (line, record) = (it.line, super::visible(&it.record));
+    let (stored, now) = (there(&it.stored), there(&it.now));
+    match &it.field {
+        Some(field) => format!(
+            "  line {line}, {record}: `{}` was {stored}, and is {now}\n",
+            super::visible(field)
+        ),
+        None if it.stored.is_some() => {
+            format!("  line {line}, {record}: there is no such record now\n")
+        }
+        None => format!("  line {line}, {record}: there was no such record\n"),
+    }
+}
+
+pub(crate) fn returned(it: &RecordedFailure, returns: bool, planner: &str) -> String {
+    let name = super::visible(&it.requirement);
+    let mut text = match (returns, it.broken) {
+        (true, _) => format!("{GOOD}returns{GOOD:#}: the failure comes back as it was recorded\n"),
+        (false, true) => format!(
+            "{BAD}does not return{BAD:#}: `{name}` is broken again, but the run ends otherwise\n"
+        ),
+        (false, false) => {
+            format!("{BAD}does not return{BAD:#}: `{name}` is not broken any more\n")
+        }
+    };
+    let now = if it.broken { "is broken" } else { "holds" };
+    let _ = writeln!(text, "  expected: `{name}` is broken, {}", it.expected);
+    let _ = writeln!(text, "  found:    `{name}` {now}, {}", it.found);
+    for EndDifference { key, expected, found } in &it.differences {
+        let _ = writeln!(text, "  {key}: {expected} was recorded, and is {found}");
+    }
+    let _ = writeln!(text, "  planner:  {planner}");
+    text
 }
 
 fn outcome(outcome: Outcome) -> String {
@@ -102,7 +161,7 @@ fn plans(body: &RunBody, width: usize) -> String {
             Cell::new(format!("\u{2192} {}", words(value)), if value < 0 { BAD } else { GOOD })
         };
         table.row(vec![
-            Cell::new(format!("RAS{number}"), HEADING),
+            Cell::new(number.to_string(), HEADING),
             Cell::plain(metres(plan.x_mm)),
             Cell::plain(&plan.cause),
             margin(plan.duration_margin_before_ms, seconds),
@@ -118,7 +177,7 @@ fn plans(body: &RunBody, width: usize) -> String {
     text
 }
 
-/// What each plan chose for each activity.
+/// Returns the choices of each plan for each activity.
 fn choices(body: &RunBody, width: usize) -> String {
     let Some(first) = body.plans.first() else { return String::new() };
     let ids: Vec<_> =
@@ -130,7 +189,11 @@ fn choices(body: &RunBody, width: usize) -> String {
     for (number, plan) in body.plans.iter().enumerate().take(SHOWN_PLANS) {
         table.row(chosen(plan, number, &ids, &mut families));
     }
-    let mut text = format!("\n{}", table.render(width));
+    let mut text = format!(
+        "\n{}  {FAINT}columns: activities (cotama plan lists them); cells: an option for each task\
+         {FAINT:#}\n",
+        table.render(width)
+    );
     if first.plan.len() > SHOWN_ACTIVITIES {
         let _ = writeln!(
             text,
@@ -142,7 +205,7 @@ fn choices(body: &RunBody, width: usize) -> String {
 }
 
 fn chosen(plan: &PlanMade, number: usize, ids: &[&str], families: &mut Families) -> Vec<Cell> {
-    let mut row = vec![Cell::new(format!("RAS{number}"), HEADING)];
+    let mut row = vec![Cell::new(format!("plan {number}"), HEADING)];
     // A plan is about the last activities, without a gap.
     let start = ids.iter().position(|&id| id == plan.first_activity).unwrap_or(ids.len());
     row.extend((0..start).map(|_| Cell::plain("")));
@@ -162,23 +225,32 @@ fn margins(body: &RunBody, trace: &Trace, width: usize) -> String {
         })
         .collect();
     let Some(&(end, _)) = samples.last() else { return String::new() };
-    let room = width.saturating_sub(46).clamp(16, 72);
-    let line =
-        |name: &str, values: Vec<(u64, i64)>, left: Option<i64>, words: fn(i64) -> String| {
-            let least = values.iter().map(|&(_, value)| value).min().unwrap_or(0);
-            let drawn = sparkline(&values, end, room, super::style::NAME);
-            let left = words(left.unwrap_or(0));
-            format!("  {name:8}  {drawn}  least {}, left {left}\n", words(least))
-        };
-    let duration = samples.iter().map(|&(time, it)| (time, it.duration_ms)).collect();
-    let energy = samples.iter().map(|&(time, it)| (time, it.energy_mj)).collect();
+    // Lines are as long as what is said behind them leaves.
+    let said = |values: &[(u64, i64)], left: Option<i64>, words: fn(i64) -> String| {
+        let least = values.iter().map(|&(_, value)| value).min().unwrap_or(0);
+        format!("least {}, left {}", words(least), words(left.unwrap_or(0)))
+    };
+    let values = |of: fn(&Margins) -> i64| -> Vec<(u64, i64)> {
+        samples.iter().map(|(time, it)| (*time, of(it))).collect()
+    };
+    let (duration, energy) = (values(|it| it.duration_ms), values(|it| it.energy_mj));
+    let said = [
+        said(&duration, body.duration_margin_ms, seconds),
+        said(&energy, body.energy_margin_mj, joules),
+    ];
+    let longest = said.iter().map(|it| it.chars().count()).max().unwrap_or(0);
+    let room = width.saturating_sub(14 + longest.max(32)).clamp(16, 72);
+    let line = |name: &str, values: &[(u64, i64)], said: &str| {
+        let drawn = sparkline(values, end, room, super::style::NAME);
+        format!("  {name:8}  {drawn}  {said}\n")
+    };
     let times: Vec<_> =
         body.plans.iter().take(SHOWN_PLANS).map(|plan| plan.time_ms.saturating_mul(1000)).collect();
     format!(
         "\n{HEADING}margins{HEADING:#} {FAINT}limit less used less planned, over time{FAINT:#}\n\
          {}{}  {FAINT}plan    {FAINT:#}  {}\n",
-        line("duration", duration, body.duration_margin_ms, seconds),
-        line("energy", energy, body.energy_margin_mj, joules),
+        line("duration", &duration, &said[0]),
+        line("energy", &energy, &said[1]),
         marks(&times, end, room),
     )
 }

@@ -15,7 +15,7 @@ const SHOWN: usize = 20;
 /// The most names in one cell.
 const SHOWN_IN_CELL: usize = 4;
 
-/// What happened, and where the net is now.
+/// Returns the events so far, and the present marking of the net.
 pub(crate) fn screen(answer: &SimulateAnswer, net: &Net<'_>, width: usize) -> String {
     let how = match (answer.rounds, answer.by_name) {
         (true, true) => ", in rounds; its transitions are fired by name",
@@ -37,8 +37,8 @@ pub(crate) fn screen(answer: &SimulateAnswer, net: &Net<'_>, width: usize) -> St
     text
 }
 
-/// What happened last, where the net is, and what can be done: what stands before the prompt of a
-/// game by hand.
+/// Returns the last events, the present marking, and the events possible: the text before the
+/// prompt of a game by hand.
 pub(crate) fn position(answer: &SimulateAnswer, net: &Net<'_>, width: usize) -> String {
     format!("{}\n{}", steps(&answer.steps, net, width), state(answer, net, width, true))
 }

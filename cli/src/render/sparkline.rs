@@ -1,7 +1,6 @@
 //! Margins over a run in one line.
 
-use super::style::{BAD, PLAIN};
-use anstyle::Style;
+use super::style::{BAD, PLAIN, Style};
 use std::fmt::Write;
 
 const LEVELS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
@@ -65,13 +64,12 @@ pub(crate) fn marks(times: &[u64], end: u64, width: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::render::style::unstyled;
 
     #[test]
     fn the_least_of_each_part_is_drawn_and_gaps_go_on() {
         let samples = [(0, 8), (9, 70), (30, -1), (39, 80)];
-        let drawn = |samples, end, width| {
-            anstream::adapter::strip_str(&sparkline(samples, end, width, PLAIN)).to_string()
-        };
+        let drawn = |samples, end, width| unstyled(&sparkline(samples, end, width, PLAIN));
         assert_eq!(drawn(&samples, 39, 4), "▂▇▇!");
         assert_eq!(drawn(&[(0, 5)], 0, 3), "███");
         assert_eq!(drawn(&[(0, 0), (1, 8)], 1, 2), "▁█");

@@ -1,10 +1,9 @@
 //! The screen of `cotama statespace`.
 
 use super::numbers::grouped;
-use super::style::{FAINT, HEADING, NOTICE};
+use super::style::{FAINT, HEADING, NOTICE, Style};
 use super::{described, visible};
 use crate::answers::check::StatespaceAnswer;
-use anstyle::Style;
 
 /// The most names of one kind that are shown.
 const SHOWN: usize = 20;

@@ -12,7 +12,8 @@ const SHOWN_POINTS: usize = 40;
 /// The points, in the order of time.
 pub(crate) fn story(run: &Supervised, width: usize) -> String {
     let mut text = format!(
-        "\n{HEADING}what happened{HEADING:#} {FAINT}times are since each failure{FAINT:#}\n"
+        "\n{HEADING}what happened{HEADING:#} {FAINT}times are since each failure; in capitals: \
+         rows of `cotama fmeca`, sets of modules{FAINT:#}\n"
     );
     for point in run.points.iter().take(SHOWN_POINTS) {
         text += &told(point, width);

@@ -1,7 +1,6 @@
 //! Tables that are wrapped in blocks of columns where the screen is narrower than they are.
 
-use super::style::{FAINT, PLAIN};
-use anstyle::Style;
+use super::style::{FAINT, PLAIN, Style};
 use std::fmt::Write;
 
 /// A cell.

@@ -5,7 +5,6 @@ use super::style::{BAD, FAINT, GOOD, HEADING, NAME, NOTICE, PLAIN};
 use super::table::{Cell, Table};
 use crate::answers::team::{Interval, TeamAnswer, TeamRun};
 use cotama_sim::fleet::record::Record;
-use cotama_sim::fleet::scenarios::FleetOptions;
 use cotama_sim::fleet::trace::Trace;
 use std::fmt::Write;
 
@@ -13,7 +12,12 @@ use std::fmt::Write;
 const SHOWN: usize = 24;
 
 /// One run.
-pub(crate) fn screen(answer: &TeamAnswer, trace: &Trace, width: usize) -> String {
+pub(crate) fn screen(
+    answer: &TeamAnswer,
+    trace: &Trace,
+    next: Option<&str>,
+    width: usize,
+) -> String {
     let Some(run) = &answer.run else { return String::new() };
     let mut text = headline(answer, run);
     text += &happened(answer, trace, width);
@@ -37,17 +41,15 @@ pub(crate) fn screen(answer: &TeamAnswer, trace: &Trace, width: usize) -> String
             let _ = writeln!(text, "{name}: {}", super::visible(path));
         }
     }
-    let next = match answer.scenario.as_str() {
-        "fleet" => "cotama run fleet --seeds 20",
-        _ if answer.loss_permille == 0 => "cotama run service --loss 10",
-        _ => "cotama run fleet",
-    };
-    let _ = writeln!(text, "next: {NAME}{next}{NAME:#}");
+    if let Some(next) = next {
+        let _ = writeln!(text, "next: {NAME}{}{NAME:#}", super::visible(next));
+    }
     text
 }
 
 fn headline(answer: &TeamAnswer, run: &TeamRun) -> String {
-    let TeamAnswer { scenario, tasks, robots, .. } = answer;
+    let TeamAnswer { tasks, robots, .. } = answer;
+    let scenario = super::visible(&answer.scenario);
     let (style, word) = match answer.outcome {
         "completed" => (GOOD, "completed"),
         "failed" => (BAD, "failed"),
@@ -72,6 +74,7 @@ fn headline(answer: &TeamAnswer, run: &TeamRun) -> String {
     let rows = [
         ("a task takes", seconds(run.mean_time_ms), "on average, from when it is known"),
         ("robots worked", seconds(run.robot_time_ms), "all together"),
+        ("energy", milli(i128::from(run.energy_mj / 1_000), 1, " kJ"), "drawn until the end"),
         ("auctions", run.auctions.to_string(), ""),
         ("awards", run.awards.len().to_string(), ""),
         ("put up again", run.reopened.to_string(), "given back, or the robot was silent"),
@@ -84,7 +87,7 @@ fn headline(answer: &TeamAnswer, run: &TeamRun) -> String {
     text + &table.render(100)
 }
 
-/// What went wrong, and in a small run who was awarded what.
+/// Returns the faults, and in a small run the awards.
 fn happened(answer: &TeamAnswer, trace: &Trace, width: usize) -> String {
     let small = answer.tasks <= 8;
     let mut rows = Vec::new();
@@ -98,17 +101,19 @@ fn happened(answer: &TeamAnswer, trace: &Trace, width: usize) -> String {
             Record::Done { t_ms, task, .. } if small => {
                 (*t_ms, String::new(), trace.task(*task), "done".to_owned(), GOOD)
             }
-            Record::Fault { t_ms, robot, task, what } => {
-                let robot = robot.map_or("", |it| trace.robot(it)).to_owned();
-                let (task, what) = match task {
-                    Some(task) => (trace.task(*task), format!("its object is {what}")),
-                    None => ("", format!("fails: {}", Trace::words(what))),
-                };
-                (*t_ms, robot, task, what, NOTICE)
+            Record::Fails { t_ms, robot, mode } => {
+                let what = format!("fails: {}", Trace::words(*mode));
+                (*t_ms, trace.robot(*robot).to_owned(), "", what, NOTICE)
+            }
+            Record::Shifted { t_ms, task } => {
+                (*t_ms, String::new(), trace.task(*task), "its object is shifted".into(), NOTICE)
+            }
+            Record::Turned { t_ms, task } => {
+                (*t_ms, String::new(), trace.task(*task), "its object is turned".into(), NOTICE)
             }
             Record::Error { t_ms, robot, task, class, why } => {
                 let (robot, task) = (trace.robot(*robot).to_owned(), trace.task(*task));
-                (*t_ms, robot, task, format!("{class}: {why}"), NOTICE)
+                (*t_ms, robot, task, format!("{}: {why}", class.name()), NOTICE)
             }
             Record::Silent { t_ms, robot, task } => {
                 let what = "is silent; its award has run out".to_owned();
@@ -142,7 +147,7 @@ fn happened(answer: &TeamAnswer, trace: &Trace, width: usize) -> String {
 }
 
 /// Many seeds.
-pub(crate) fn compared(answer: &TeamAnswer, options: &FleetOptions, width: usize) -> String {
+pub(crate) fn compared(answer: &TeamAnswer, faults: usize, next: &str, width: usize) -> String {
     let Some(compared) = &answer.compared else { return String::new() };
     let all = compared.allocations.iter();
     let unsound: u64 = all.clone().map(|it| it.unsound).sum();
@@ -152,12 +157,13 @@ pub(crate) fn compared(answer: &TeamAnswer, options: &FleetOptions, width: usize
         (BAD, format!("{unsound} runs are not sound"))
     };
     let mut text = format!(
-        "{HEADING}fleet{HEADING:#} {style}{word}{style:#}: {}, {}, {}, each task done once or \
-         reported\n  {FAINT}{} fail for good, {} % of messages lost, seeds {} to {}{FAINT:#}\n\n",
+        "{HEADING}{}{HEADING:#} {style}{word}{style:#}: {}, {}, {}, each task done once or \
+         reported\n  {FAINT}{}, {} % of messages lost, seeds {} to {}{FAINT:#}\n\n",
+        super::visible(&answer.scenario),
         count(compared.seeds, "seed"),
         count(answer.robots, "robot"),
         count(answer.tasks, "task"),
-        count(options.failures as u64, "robot"),
+        count(faults as u64, "fault"),
         milli(i128::from(answer.loss_permille) * 100, 1, ""),
         answer.seed,
         answer.seed + compared.seeds - 1
@@ -183,7 +189,7 @@ pub(crate) fn compared(answer: &TeamAnswer, options: &FleetOptions, width: usize
         "  {FAINT}means with intervals of 95 %; robot time counts what is not done with its \
          utility{FAINT:#}"
     );
-    let _ = writeln!(text, "\nnext: {NAME}cotama run fleet --seed {}{NAME:#}", answer.seed);
+    let _ = writeln!(text, "\nnext: {NAME}{}{NAME:#}", super::visible(next));
     text
 }
 

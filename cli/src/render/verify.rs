@@ -4,7 +4,7 @@ use super::style::{BAD, GOOD};
 use super::{visible, wrapped};
 use crate::answers::check::VerifyAnswer;
 
-/// What a certificate shows, or why it shows nothing.
+/// Returns the statement of a certificate, or why it shows nothing.
 pub(crate) fn screen(answer: &VerifyAnswer, width: usize) -> String {
     let said = |text: &Option<String>| visible(text.as_deref().unwrap_or_default());
     if answer.verified {

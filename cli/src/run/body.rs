@@ -1,4 +1,4 @@
-//! What a run comes to, from its trace.
+//! The result of a run, from its trace.
 
 use crate::answers::{EventRow, Outcome, PlanMade, PlanRow, RunBody};
 use cotama_core::units::mul_div_half_up;

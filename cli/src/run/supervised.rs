@@ -1,4 +1,4 @@
-//! What the supervisors did in a run, from its trace.
+//! The actions of the supervisors in a run, from its trace.
 
 use crate::answers::supervised::{Configured, Failure, Fired, Point, Supervised, Told};
 use cotama_sim::supervised::story::{self, Chain, What, points};
@@ -29,7 +29,7 @@ pub(super) fn supervised(trace: &Trace) -> Option<Supervised> {
             Record::Configuration(it) => answer.configurations.push(Configured {
                 t_ms: it.t_us / 1000,
                 configuration: it.configuration.clone(),
-                mode: it.mode.clone(),
+                mode: it.mode.name(),
             }),
             Record::Told(it) => answer.told.push(Told { round: it.round, event: it.event.clone() }),
             _ => {}
@@ -81,11 +81,11 @@ fn failure(chain: &Chain<'_>) -> Failure {
         diagnosis: diagnosis.map(|it| kind(it.candidates.len())),
         candidates: diagnosis.map_or_else(Vec::new, |it| it.candidates.clone()),
         report: diagnosis.and_then(|it| it.report.clone()),
-        severity: diagnosis.map(|it| it.severity.clone()),
-        by_severity: diagnosis.map(|it| it.by_severity.clone()),
-        by_availability: diagnosis.map(|it| it.by_availability.clone()),
+        severity: diagnosis.map(|it| it.severity.name()),
+        by_severity: diagnosis.map(|it| it.by_severity.name()),
+        by_availability: diagnosis.map(|it| it.by_availability.name()),
         decided_ms: decision.map(|it| it.t_us / 1000),
-        decision: decision.map(|it| it.decision.clone()),
+        decision: decision.map(|it| it.decision.name()),
         event: decision.and_then(|it| it.event.clone()),
         transition: decision.and_then(|it| it.transition.clone()),
         answered_ms: chain.reaction.first().map(|it| it.t_us / 1000),

@@ -1,51 +1,30 @@
-//! `cotama run fleet` and `cotama run service`: teams of robots.
+//! `cotama run` and `cotama replay` of teams of robots: those of the program, and files.
 
-use crate::answers::team::{
-    AwardRow, Compared, ComparedRow, ErrorRow, Interval, TeamAnswer, TeamRun,
-};
-use crate::args::RunArgs;
+mod compared;
+
+use crate::answers::team::{AwardRow, TeamAnswer, TeamErrorRow, TeamRun};
+use crate::args::{ReplayArgs, RunArgs, STEPS};
 use crate::exit::{Exit, Failure};
-use crate::names::{is_name, near};
+use crate::file_errors::FileErrors;
+use crate::input;
+use crate::kind::{self, Kind};
+use crate::names::{is_name, near, quoted};
 use crate::output::{self, Screen};
 use crate::render;
+use crate::team::{Chosen, Team};
+use compared::compared;
 use cotama_models::missions::embedded;
-use cotama_sim::fleet::Kind;
-use cotama_sim::fleet::campaign::{Results, Spread, compare};
+use cotama_models::team::scenario::{self, FaultsOfTeam, Method, Scenario};
+use cotama_sim::campaign::plan::{Fault, Plan};
+use cotama_sim::campaign::recorded::{self, Again};
+use cotama_sim::campaign::subject::Subject;
+use cotama_sim::fleet::Kind as Letters;
 use cotama_sim::fleet::record::{Fate, Record};
 use cotama_sim::fleet::scenarios::{FleetOptions, ServiceOptions, fleet, service};
-use cotama_sim::fleet::task::Method;
-use cotama_sim::fleet::trace::Trace;
+use cotama_sim::fleet::trace::{self, Trace};
 use cotama_sim::report;
+use cotama_sim::trace::TraceError;
 use std::path::{Path, PathBuf};
-use std::thread;
-
-/// A scenario of a team.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Team {
-    Fleet,
-    Service,
-}
-
-impl Team {
-    /// All, with a line of what they are.
-    pub(crate) const ALL: [(Self, &'static str); 2] = [
-        (Self::Service, "Four robots serve a drink, with what goes wrong in it (Rohrmueller 2011)"),
-        (Self::Fleet, "Forty robots carry two hundred deliveries in an office; some robots fail"),
-    ];
-
-    /// Its name on the command line.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Fleet => "fleet",
-            Self::Service => "service",
-        }
-    }
-
-    /// The one of this name.
-    pub(crate) fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().map(|it| it.0).find(|it| it.name() == name)
-    }
-}
 
 /// Refuses options that are not for missions.
 pub(crate) fn none_given(args: &RunArgs) -> Result<(), Failure> {
@@ -69,80 +48,230 @@ pub(crate) fn not_meant(name: &str) -> Result<(), Failure> {
     }
 }
 
+impl Chosen {
+    /// Returns what is run for these options with a seed and a method.
+    fn made(&self, args: &RunArgs) -> Result<impl Fn(u64, Option<Method>) -> Scenario, Failure> {
+        let script = args.faults != "none";
+        if args.team.hidden_handle && !matches!(self, Self::Known(Team::Service)) {
+            return Err(Failure::new("--hidden-handle is for `cotama run service`"));
+        }
+        if let Some(option) = args.team.first_of_size().filter(|_| !self.is_fleet()) {
+            return Err(Failure::new(format!("{option} is for `cotama run fleet`")));
+        }
+        let usual = FleetOptions::default();
+        let number = |it: Option<u64>, usual: usize| it.map_or(usual, |it| it as usize);
+        let robots = number(args.team.robots, usual.robots);
+        let failures = number(args.team.failures, usual.failures.min(robots / 8));
+        if failures > robots {
+            return Err(Failure::new(format!("--failures {failures}: there are {robots} robots")));
+        }
+        let (tasks, loss) = (number(args.team.tasks, usual.tasks), args.team.loss);
+        let (hidden_handle, allocation) = (args.team.hidden_handle, args.team.allocation);
+        let file = match self {
+            Self::File(scenario) => Some((**scenario).clone()),
+            Self::Known(_) => None,
+        };
+        let is_fleet = self.is_fleet();
+        let own = move |seed: u64, method: Option<Method>| {
+            let method = method.or(allocation.map(Method::from));
+            let mut scenario = match &file {
+                Some(scenario) => Scenario { seed, ..scenario.clone() },
+                None if is_fleet => {
+                    let failures = if script { failures } else { 0 };
+                    fleet(&FleetOptions { robots, tasks, failures, seed, ..usual })
+                }
+                None => {
+                    let disturbances = script && !hidden_handle;
+                    let options = ServiceOptions {
+                        hidden_handle,
+                        disturbances,
+                        seed,
+                        ..ServiceOptions::default()
+                    };
+                    service(&options)
+                }
+            };
+            if !script && file.is_some() {
+                scenario.faults.clear();
+            }
+            if let Some(loss) = loss {
+                scenario.network.loss_permille = loss;
+            }
+            scenario.method = method.unwrap_or(scenario.method);
+            scenario
+        };
+        // Faults are those of this team, whatever its size.
+        let given = match args.faults.as_str() {
+            "script" | "none" => None,
+            file => Some(faults(file, &own(args.seed, None))?),
+        };
+        Ok(move |seed: u64, method: Option<Method>| {
+            let mut scenario = own(seed, method);
+            if let Some(given) = &given {
+                scenario.faults.clone_from(given);
+            }
+            scenario
+        })
+    }
+
+    fn is_fleet(&self) -> bool {
+        matches!(self, Self::Known(Team::Fleet))
+    }
+}
+
+/// Reads the faults of a file for a team.
+fn faults(file: &str, team: &Scenario) -> Result<Vec<scenario::Fault>, Failure> {
+    let wanted = [Kind::TeamFaults];
+    let text = kind::text(file, "a file of a team's faults", input::MISSION_BYTES, &wanted)?;
+    Ok(team.faults_of(file, &text)?.faults)
+}
+
 /// Runs a team and reports.
-pub(crate) fn run(args: &RunArgs, team: Team, screen: &Screen) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &RunArgs, chosen: &Chosen, screen: &Screen) -> Result<Exit, Failure> {
     for_missions(args)?;
-    let script = match args.faults.as_str() {
-        "script" => true,
-        "none" => false,
-        file => {
-            return Err(Failure::new(format!("--faults {file}: teams read no file of faults"))
-                .help("give `script` or `none`"));
+    let made = chosen.made(args)?;
+    if let Some(seeds) = args.team.seeds {
+        if args.team.allocation.is_some() {
+            let message = "--allocation with --seeds: every allocation is run and compared";
+            return Err(Failure::new(message).help("leave one of them out"));
         }
-    };
-    let fleet_options = FleetOptions::default();
-    let number = |it: Option<u64>, usual: usize| it.map_or(usual, |it| it as usize);
-    let robots = number(args.team.robots, fleet_options.robots);
-    let failures = number(args.team.failures, fleet_options.failures.min(robots / 8));
-    let fleet_options = FleetOptions {
-        robots,
-        tasks: number(args.team.tasks, fleet_options.tasks),
-        failures: if script { failures } else { 0 },
-        loss_permille: args.team.loss.unwrap_or(fleet_options.loss_permille),
-        method: args.team.allocation.map_or(fleet_options.method, Method::from),
-        seed: args.seed,
-    };
-    if failures > robots {
-        return Err(Failure::new(format!("--failures {failures}: there are {robots} robots")));
+        return compared(args, &made, seeds, screen);
     }
-    let scenario = match team {
-        Team::Fleet => {
-            if args.team.hidden_handle {
-                return Err(Failure::new("--hidden-handle is for `cotama run service`"));
-            }
-            if let Some(seeds) = args.team.seeds {
-                return compared(args, &fleet_options, seeds, screen);
-            }
-            fleet(&fleet_options)
-        }
-        Team::Service => {
-            if let Some(option) = args.team.first_of_fleet() {
-                return Err(Failure::new(format!("{option} is for `cotama run fleet`")));
-            }
-            service(&ServiceOptions {
-                hidden_handle: args.team.hidden_handle,
-                disturbances: script && !args.team.hidden_handle,
-                loss_permille: args.team.loss.unwrap_or(0),
-                seed: args.seed,
-            })
-        }
-    };
-    let trace = Trace::of(&scenario);
-    let mut run = of(&trace);
-    if let Some(path) = &args.trace {
-        output::file(path, trace.to_json_lines().as_bytes())?;
-        run.trace = Some(path.display().to_string());
-    }
-    if !args.no_report {
-        let usual = || PathBuf::from("report").join(team.name());
-        let folder = args.report.clone().unwrap_or_else(usual);
-        output::make_folder(&folder)?;
-        let path = folder.join("index.html");
-        output::file(&path, report::team::html(&trace).as_bytes())?;
-        run.report = Some(path.display().to_string());
-    }
-    let outcome = match (trace.run.is_sound(), run.reported) {
-        (true, 0) => "completed",
-        (true, _) => "reported",
-        (false, _) => "failed",
-    };
-    let answer = answer(team, outcome, &fleet_options, &trace, run);
+    let trace = Trace::of(&made(args.seed, None));
+    let usual = || PathBuf::from("report").join(report_name(&trace.header.scenario));
+    let folder = args.report.clone().unwrap_or_else(usual);
+    let folder = (!args.no_report).then_some(folder.as_path());
+    let run = written(&trace, args.trace.as_deref(), folder)?;
+    let answer = answer(&trace, run);
     if args.json.json {
         Screen::json(&answer)?;
     } else {
-        screen.print(&render::team::screen(&answer, &trace, screen.width()))?;
+        let next = next(args, &answer);
+        screen.print(&render::team::screen(&answer, &trace, Some(&next), screen.width()))?;
     }
-    Ok(if outcome == "completed" { Exit::Success } else { Exit::Violated })
+    Ok(ended(&answer))
+}
+
+/// Runs the team of a trace again, and compares record by record.
+pub(crate) fn replay(args: &ReplayArgs, text: &str, screen: &Screen) -> Result<Exit, Failure> {
+    let given = [("--mission", args.mission.is_some()), ("--seed", args.seed.is_some())];
+    if let Some((option, _)) = given.into_iter().find(|it| it.1) {
+        let message = format!("{option}: a trace names its team and its seed");
+        return Err(Failure::new(message).help("leave it out"));
+    }
+    let name = &args.file;
+    let stored =
+        Trace::parse(name, text).map_err(|TraceError { line, column, message, .. }| {
+            FileErrors::at(input::name(name), text.to_owned(), line, column, message)
+                .help("the trace of a team is written by `cotama run TEAM --trace FILE.jsonl`")
+        })?;
+    let (trace, difference) = trace::replay(&stored)?;
+    let run = written(&trace, args.trace.as_deref(), args.report.as_deref())?;
+    let mut answer = answer(&trace, run);
+    answer.identical = Some(difference.is_none());
+    answer.difference = difference.as_ref().map(crate::replay::record_difference);
+    if args.json.json {
+        Screen::json(&answer)?;
+    } else {
+        let screen_text = render::team::screen(&answer, &trace, None, screen.width());
+        let compared =
+            render::run::records_compared(difference.is_none(), answer.difference.as_ref());
+        screen.print(&(screen_text + &compared))?;
+    }
+    Ok(if difference.is_none() { Exit::Success } else { Exit::Violated })
+}
+
+/// Runs a recorded failure of a team again, and compares its end.
+pub(crate) fn replay_faults(
+    args: &ReplayArgs,
+    text: &str,
+    screen: &Screen,
+) -> Result<Exit, Failure> {
+    if args.seed.is_some() {
+        let message = "--seed: the runs of a team's campaign have the seed 0";
+        return Err(Failure::new(message).help("leave it out"));
+    }
+    let Some(name) = args.mission.clone().or_else(|| FaultsOfTeam::team_of(text)) else {
+        let message = "a file of a team's faults needs a team";
+        let help = format!("cotama replay {} --mission service", quoted(&args.file));
+        return Err(Failure::of(input::name(&args.file), message).help(help));
+    };
+    let Some(team) = Chosen::of(&name)? else {
+        let message = format!("`{name}` is no team");
+        return Err(Failure::new(message).help("give `fleet`, `service`, or the path of a file"));
+    };
+    let team = team.scenario();
+    let file = team.faults_of(&args.file, text)?;
+    let scenario = Scenario { faults: file.faults.clone(), ..team.clone() };
+    let again = match &file.expected {
+        None => None,
+        Some(expected) => {
+            let plan = Plan { faults: file.faults.into_iter().map(Fault::Team).collect() };
+            let again = recorded::again_by(&Subject::of_team(team, None), &plan, expected);
+            Some(again.map_err(|it| Failure::of(input::name(&args.file), it.to_string()))?)
+        }
+    };
+    let trace = Trace::of(&scenario);
+    let run = written(&trace, args.trace.as_deref(), args.report.as_deref())?;
+    let mut answer = answer(&trace, run);
+    answer.identical = again.as_ref().map(Again::is_identical);
+    answer.returns = again.as_ref().map(Again::returns);
+    answer.failure = again.as_ref().map(crate::replay::recorded_failure);
+    if args.json.json {
+        Screen::json(&answer)?;
+    } else {
+        let mut text = render::team::screen(&answer, &trace, None, screen.width());
+        if let (Some(failure), Some(returns)) = (&answer.failure, answer.returns) {
+            let allocation = format!("allocation {}", trace.header.allocation);
+            text += &render::run::returned(failure, returns, &allocation);
+        }
+        screen.print(&text)?;
+    }
+    Ok(match answer.returns {
+        Some(true) => Exit::Success,
+        Some(false) => Exit::Violated,
+        None => ended(&answer),
+    })
+}
+
+/// A name as that of a folder: of other characters `-` stands in their place.
+fn report_name(scenario: &str) -> String {
+    let plain = |it: char| if it.is_ascii_alphanumeric() || it == '_' { it } else { '-' };
+    let name: String = scenario.chars().take(60).map(plain).collect();
+    if name.is_empty() { "team".to_owned() } else { name }
+}
+
+/// The numbers of a run, with the files that were written of it.
+fn written(trace: &Trace, file: Option<&Path>, report: Option<&Path>) -> Result<TeamRun, Failure> {
+    let mut run = of(trace);
+    if let Some(path) = file {
+        output::file(path, trace.to_json_lines().as_bytes())?;
+        run.trace = Some(path.display().to_string());
+    }
+    if let Some(folder) = report {
+        output::make_folder(folder)?;
+        let path = folder.join("index.html");
+        output::file(&path, report::team::html(trace).as_bytes())?;
+        run.report = Some(path.display().to_string());
+    }
+    Ok(run)
+}
+
+fn ended(answer: &TeamAnswer) -> Exit {
+    if answer.outcome == "completed" { Exit::Success } else { Exit::Violated }
+}
+
+/// The command that suggests itself.
+fn next(args: &RunArgs, answer: &TeamAnswer) -> String {
+    if let Some(trace) = answer.run.as_ref().and_then(|it| it.trace.as_deref()) {
+        return format!("cotama replay {}", quoted(trace));
+    }
+    match args.mission.mission.as_str() {
+        "fleet" => "cotama run fleet --seeds 20".to_owned(),
+        "service" if answer.loss_permille == 0 => "cotama run service --loss 10".to_owned(),
+        "service" => "cotama run fleet".to_owned(),
+        file => format!("cotama run {} --trace team.jsonl", quoted(file)),
+    }
 }
 
 /// Refuses options that only missions have.
@@ -156,6 +285,7 @@ fn for_missions(args: &RunArgs) -> Result<(), Failure> {
         ("--energy-limit", planning.energy_limit.is_some()),
         ("--monitor-period", args.monitor_period.is_some()),
         ("--upward", args.upward),
+        ("--steps", planning.steps != STEPS),
     ];
     match given.into_iter().find(|it| it.1) {
         None => Ok(()),
@@ -165,42 +295,45 @@ fn for_missions(args: &RunArgs) -> Result<(), Failure> {
     }
 }
 
-fn answer(
-    team: Team,
-    outcome: &'static str,
-    options: &FleetOptions,
-    trace: &Trace,
-    run: TeamRun,
-) -> TeamAnswer {
+fn answer(trace: &Trace, run: TeamRun) -> TeamAnswer {
     TeamAnswer {
         schema: "cotama/run-team/1",
-        scenario: team.name().to_owned(),
-        outcome,
-        seed: options.seed,
+        scenario: trace.header.scenario.clone(),
+        outcome: match (trace.run().is_sound(), run.reported) {
+            (true, 0) => "completed",
+            (true, _) => "reported",
+            (false, _) => "failed",
+        },
+        seed: trace.header.seed,
         robots: trace.header.robots.len() as u64,
         tasks: trace.header.tasks.len() as u64,
         loss_permille: trace.header.loss_permille,
         run: Some(run),
         compared: None,
+        identical: None,
+        difference: None,
+        returns: None,
+        failure: None,
     }
 }
 
-/// What a run came to.
+/// Returns the result of a run.
 fn of(trace: &Trace) -> TeamRun {
-    let run = &trace.run;
+    let run = trace.run();
     let done = run.count(Fate::Done) as u64;
     let mut answer = TeamRun {
-        allocation: trace.header.allocation,
+        allocation: trace.header.allocation.clone(),
         done,
         reported: run.count(Fate::Reported) as u64,
         duration_ms: run.end_ms,
         robot_time_ms: run.busy_ms,
+        energy_mj: run.energy_mj,
         cost_ms: run.cost_ms,
         mean_time_ms: run.waited_ms / done.max(1),
         auctions: u64::from(run.rounds),
         reopened: u64::from(run.reopened),
         robots_out: run.out as u64,
-        messages: Kind::ALL.iter().map(|it| (it.name(), run.sent(*it))).collect(),
+        messages: Letters::ALL.iter().map(|it| (it.name(), run.sent(*it))).collect(),
         messages_lost: run.lost,
         awards: Vec::new(),
         errors: Vec::new(),
@@ -219,77 +352,15 @@ fn of(trace: &Trace) -> TeamRun {
                     costs_ms: costs_ms.clone(),
                 });
             }
-            Record::Error { t_ms, robot, task, class, why } => answer.errors.push(ErrorRow {
+            Record::Error { t_ms, robot, task, class, why } => answer.errors.push(TeamErrorRow {
                 t_ms: *t_ms,
                 robot: trace.robot(*robot).to_owned(),
                 task: trace.task(*task).to_owned(),
-                class: class.clone(),
+                class: class.name().to_owned(),
                 why: why.clone(),
             }),
             _ => {}
         }
     }
     answer
-}
-
-/// Many seeds, with one allocation or with all.
-fn compared(
-    args: &RunArgs,
-    options: &FleetOptions,
-    seeds: u64,
-    screen: &Screen,
-) -> Result<Exit, Failure> {
-    let all = [Method::Optimal, Method::Rounds, Method::OneByOne];
-    let methods = args.team.allocation.map_or(all.to_vec(), |it| vec![it.into()]);
-    let threads = thread::available_parallelism().map_or(1, usize::from);
-    let results = compare(options, seeds, &methods, threads);
-    let unsound: usize = results.iter().map(|it| it.unsound).sum();
-    let reported: usize = results.iter().map(|it| it.reported).sum();
-    let answer = TeamAnswer {
-        schema: "cotama/run-team/1",
-        scenario: Team::Fleet.name().to_owned(),
-        outcome: match (unsound, reported) {
-            (0, 0) => "completed",
-            (0, _) => "reported",
-            _ => "failed",
-        },
-        seed: options.seed,
-        robots: options.robots as u64,
-        tasks: options.tasks as u64,
-        loss_permille: options.loss_permille,
-        run: None,
-        compared: Some(Compared {
-            seeds,
-            confidence_permille: 950,
-            allocations: results.iter().map(row).collect(),
-        }),
-    };
-    if args.json.json {
-        Screen::json(&answer)?;
-    } else {
-        screen.print(&render::team::compared(&answer, options, screen.width()))?;
-    }
-    Ok(if unsound == 0 { Exit::Success } else { Exit::Violated })
-}
-
-fn row(it: &Results) -> ComparedRow {
-    ComparedRow {
-        allocation: it.method.name(),
-        cost_ms: it.cost_ms.into(),
-        mean_time_ms: it.waited_ms.into(),
-        more_ms: it.more_ms.into(),
-        more_permille: it.more_permille.into(),
-        done: it.done as u64,
-        reported: it.reported as u64,
-        reopened: it.reopened,
-        unsound: it.unsound as u64,
-    }
-}
-
-impl From<Spread> for Interval {
-    fn from(it: Spread) -> Self {
-        let half = i64::try_from(it.half_width).unwrap_or(i64::MAX);
-        let (low, high) = (it.mean.saturating_sub(half), it.mean.saturating_add(half));
-        Self { mean: it.mean, low, high }
-    }
 }

@@ -31,7 +31,7 @@ pub(super) fn run(
     let mut history = vec![];
     let mut shown = 0;
     let mut input = std::io::stdin().lock();
-    // What is typed on a terminal stands there already.
+    // Text typed on a terminal stands there already.
     let typed = std::io::stdin().is_terminal();
     screen.print(&format!("{NAME}{}{NAME:#}\n{FAINT}{HELP}{FAINT:#}", visible(net.name)))?;
     if begun.is_err() {

@@ -24,7 +24,7 @@ pub(super) struct Endless;
 /// A game and its record.
 pub(super) struct Session<'n, 'c> {
     net: &'n Net<'n>,
-    /// Of a system, which reads its mail in rounds.
+    /// Numbers of a system, which reads its mail in rounds.
     numbered: &'n Numbered,
     game: Box<dyn Game<'c> + 'c>,
     rounds: bool,
@@ -33,7 +33,7 @@ pub(super) struct Session<'n, 'c> {
     firings: usize,
 }
 
-/// What a session goes back to.
+/// A state that a session goes back to.
 pub(super) struct Saved<'c> {
     game: Box<dyn Game<'c> + 'c>,
     marking: Vec<u32>,
@@ -223,7 +223,7 @@ impl<'n, 'c> Session<'n, 'c> {
                     *tokens = change(*tokens, arc.weight);
                 }
             };
-            // What a round gives arrives at its end, so it never takes more than is there.
+            // Tokens that a round gives arrive at its end, so it never takes more than there are.
             transition.take.iter().for_each(|arc| change(arc, u32::saturating_sub));
             transition.give.iter().for_each(|arc| change(arc, u32::saturating_add));
         }
@@ -259,7 +259,7 @@ impl<'n, 'c> Session<'n, 'c> {
         self.net.events.get(id as usize).map_or_else(String::new, |it| it.name.to_owned())
     }
 
-    /// What is in play, as one net.
+    /// Returns the played net or system, as one net.
     pub(super) fn net(&self) -> &'n Net<'n> {
         self.net
     }
@@ -274,7 +274,7 @@ impl<'n, 'c> Session<'n, 'c> {
         self.steps.len()
     }
 
-    /// What it can be brought back to.
+    /// Returns the state, to be brought back later.
     pub(super) fn save(&self) -> Saved<'c> {
         Saved {
             game: self.game.fork(),
@@ -290,7 +290,7 @@ impl<'n, 'c> Session<'n, 'c> {
         (self.game, self.marking, self.firings) = (saved.game, saved.marking, saved.firings);
     }
 
-    /// What became of it from the step `from` on, and what can become of it.
+    /// Returns the steps from `from` on, and the events possible now.
     pub(super) fn answer(&self, by_name: bool, complete: bool, from: usize) -> SimulateAnswer {
         let steps = self.steps.get(from..).unwrap_or_default();
         let mut enabled = vec![];

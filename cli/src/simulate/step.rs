@@ -4,6 +4,7 @@ use crate::exit::Failure;
 use crate::names::near;
 use cotama_core::net::{EventId, Net};
 use cotama_core::units::Millis;
+use cotama_verification::conform::MAX_MS;
 use std::collections::BTreeMap;
 
 /// Time passes up to `at`, then these events are offered: at most one, but for a round.
@@ -20,7 +21,7 @@ pub(super) fn lines(text: &str) -> Vec<String> {
     lines.map(str::to_owned).collect()
 }
 
-/// What can be said to a net.
+/// The words that a net understands.
 #[derive(Debug)]
 pub(super) struct Words<'n> {
     names: BTreeMap<&'n str, EventId>,
@@ -34,7 +35,7 @@ impl<'n> Words<'n> {
     /// The names of the events; `by_name` says that they are those of transitions.
     pub(super) fn new(net: &Net<'n>, by_name: bool, rounds: bool) -> Self {
         let list: Vec<_> = net.events.iter().map(|it| it.name).collect();
-        // Of several events of one name, which a file can have, the first is meant.
+        // The first of several events of one name, which a file can have, is meant.
         let names =
             list.iter().enumerate().rev().map(|(id, &name)| (name, EventId(id as u32))).collect();
         Self {
@@ -71,12 +72,14 @@ impl<'n> Words<'n> {
         }
         if let Some(wait) = word.strip_prefix('+') {
             let wait: u64 = wait.parse().map_err(|_| no_time(word, wait))?;
-            let at = now.0.checked_add(wait).ok_or_else(|| no_time(word, "the time then"))?;
+            let at = now.0.checked_add(wait).filter(|it| *it <= MAX_MS);
+            let at = at.ok_or_else(|| no_time(word, "the time then"))?;
             return Ok(Step { at: Millis(at), events: vec![] });
         }
         match word.rsplit_once('@') {
             Some((events, at)) if at.bytes().all(|it| it.is_ascii_digit()) => {
-                let time = at.parse().map(Millis).map_err(|_| no_time(word, at))?;
+                let time = at.parse().ok().filter(|it| *it <= MAX_MS).map(Millis);
+                let time = time.ok_or_else(|| no_time(word, at))?;
                 if time < now {
                     let message =
                         format!("{word}: it is {} ms already, and time does not go back", now.0);
@@ -148,11 +151,10 @@ impl<'n> Words<'n> {
 }
 
 fn no_time(word: &str, what: &str) -> Failure {
-    Failure::new(format!("{word}: `{what}` is no time: a whole number of milliseconds below 2^64"))
-        .help(
-            "`+500` lets half a second pass; `EVENT@500` offers an event half a second after the \
+    Failure::new(format!("{word}: `{what}` is no time: whole milliseconds, at most {MAX_MS}")).help(
+        "`+500` lets half a second pass; `EVENT@500` offers an event half a second after the \
             start",
-        )
+    )
 }
 
 #[cfg(test)]
@@ -186,6 +188,11 @@ mod tests {
     fn time_does_not_go_back_and_does_not_overflow() {
         assert!(said(&["a"], false, &["+10", "a@9"]).is_err());
         assert!(said(&["a"], false, &["+18446744073709551615", "+1"]).is_err());
+        // The last time is that of a recording.
+        assert!(said(&["a"], false, &["+9007199254740990", "a@9007199254740991"]).is_ok());
+        assert!(said(&["a"], false, &["+9007199254740992"]).is_err());
+        assert!(said(&["a"], false, &["a@9007199254740992"]).is_err());
+        assert!(said(&["a"], false, &["a@9007199254740991", "+1"]).is_err());
         assert!(said(&["a"], false, &["+-1"]).is_err());
         assert!(said(&["a"], false, &["a@99999999999999999999"]).is_err());
     }

@@ -1,8 +1,8 @@
 //! Plays the supervisor on a microcontroller: `cargo run --release`.
 //!
 //! A timer counts milliseconds and wakes the processor; in between it sleeps. What the supervisor
-//! does by itself it does when it is due. On a robot, events come from interrupts, and outputs drive
-//! pins: `log` is the place for them.
+//! does by itself it does when it is due. On a robot, events come from interrupts, and outputs
+//! drive pins: `log` is the place for them.
 #![no_std]
 #![no_main]
 
@@ -16,7 +16,7 @@ use semihosting::{print, println, process};
 
 /// Ticks of the timer in a millisecond: the clock of the board in kHz.
 const CLOCK_KHZ: u32 = 25_000;
-/// What is offered, and when, in ms.
+/// Events offered, with their times in ms.
 const EVENTS: [(u64, Event); 4] =
     [(0, Event::start), (80, Event::heard), (450, Event::heard), (500, Event::start)];
 
@@ -49,7 +49,7 @@ fn main() -> ! {
     let mut supervisor = Player::new();
     for (at, event) in EVENTS {
         while now() < Millis(at) {
-            // What is due fires now; then the processor sleeps until the next millisecond.
+            // Due transitions fire now; then the processor sleeps until the next millisecond.
             let _ = supervisor.advance_with(now(), &mut log);
             cortex_m::asm::wfi();
         }

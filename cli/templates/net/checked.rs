@@ -1,4 +1,4 @@
-//! What the supervisor promises: `cargo test`.
+//! Promises of the supervisor: `cargo test`.
 
 use cotama_core::units::Millis;
 use cotama_verification::assert_holds;

@@ -1,4 +1,4 @@
-//! What the system promises: `cargo test`.
+//! Promises of the system: `cargo test`.
 
 use cotama_core::units::Millis;
 use cotama_verification::assert_holds;

@@ -1,16 +1,19 @@
-//! Plays the system: `cargo run`.
+//! Plays the system and records the run in `log.jsonl`: `cargo run`.
 
+use cotama_core::player::Recorder;
 use cotama_core::units::Millis;
-use my_system::my_system::{Event, Firing, Player, state};
+use my_system::my_system::{Event, Firing, Player, Program, state};
 use my_system::{drive, link};
 
-fn main() {
+fn main() -> std::io::Result<()> {
     // Called for each transition that fires; on a robot this drives the motors.
-    let mut log = |it: &Firing| {
+    let mut act = |it: &Firing| {
         let says: Vec<_> = it.outputs().collect();
         println!("{}: {:?} {says:?}", it.at, it.transition());
     };
-    let mut robot = Player::new();
+    // Writes the run down, one JSON object a line.
+    let mut recorder = Recorder::new(String::new());
+    let mut robot: Player = recorder.start(Program, Millis(0));
     let start = Event::drive(drive::Event::start);
     let heard = Event::link(link::Event::heard);
     for (at, event) in [
@@ -20,9 +23,10 @@ fn main() {
         (950, heard),
         (1_000, start),
     ] {
-        let outcome = robot.offer_with(Millis(at), &event, &mut log);
+        let outcome = recorder.offer_with(&mut robot, Millis(at), &event, &mut act);
         println!("{at} ms: {event:?} is offered: {outcome:?}");
     }
     println!("the link is {:?}", state::link(&robot));
     println!("the drive is {:?}", state::drive(&robot));
+    std::fs::write("log.jsonl", recorder.into_inner())
 }

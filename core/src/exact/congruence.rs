@@ -2,24 +2,24 @@
 //!
 //! Choices that lose next to nothing at the dual prices often change the value by multiples of one
 //! number only: nine per 100 mm, say. Then every plan near the bound has the remainder of the best
-//! items, unless activities are changed at a real loss. The least loss for each remainder is a
-//! shortest path over as many nodes as there are remainders (the group relaxation of Gomory 1965,
-//! with the value as its one row); the bound falls to the next value whose remainder can be paid
-//! for.
+//! items, unless activities are changed at a real reduced cost. The least reduced cost for each
+//! remainder is a shortest path over as many nodes as there are remainders (the group relaxation of
+//! Gomory 1965, with the value as its one row); the bound falls to the next value whose remainder
+//! can be paid for.
 
 use super::dual::Price;
+use super::level::{REMAINDERS, Residues};
 use super::load::Frame;
+use super::rows::{difference, sum};
 use super::{Item, Stage};
 use core::num::NonZero;
 
-/// The most remainders kept.
-pub(super) const REMAINDERS: usize = 16;
-/// A loss below this part of one unit of value, as a shift, counts as next to none.
+/// A reduced cost below this part of one unit of value, as a shift, counts as next to none.
 const NEXT_TO_NONE: u32 = 5;
-/// A loss that no plan can pay; others can be added to it.
+/// A reduced cost that no plan can pay; others can be added to it.
 const NEVER: i64 = 1 << 62;
 
-/// The least loss at which some activities change the value by each remainder.
+/// The least reduced cost at which some activities change the value by each remainder.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Remainders {
     modulus: NonZero<u32>,
@@ -31,7 +31,7 @@ impl Remainders {
     pub(super) const NONE: Self = Self { modulus: NonZero::<u32>::MIN, least: [0; REMAINDERS] };
 
     /// The remainders of no activity at all, modulo the number that choices near the bound have in
-    /// common. Needs losses, and each activity's best item first.
+    /// common. Needs reduced costs, and each activity's best item first.
     pub(super) fn of<const A: usize>(
         frame: &Frame<A>,
         items: &[Item<A>],
@@ -41,7 +41,7 @@ impl Remainders {
         let mut divisor = 0;
         for own in stages.iter().map(|stage| stage.items(items)) {
             let [best, others @ ..] = own else { continue };
-            for item in others.iter().take_while(|item| item.loss() <= small) {
+            for item in others.iter().take_while(|item| item.reduced_cost() <= small) {
                 divisor = gcd(divisor, item.value.abs_diff(best.value));
             }
         }
@@ -63,52 +63,58 @@ impl Remainders {
         value.rem_euclid(i64::from(self.modulus.get())).unsigned_abs() as usize
     }
 
-    /// The least loss for the remainder at this place.
-    fn loss(&self, place: usize) -> i64 {
+    /// The least reduced cost for the remainder at this place.
+    fn reduced_cost(&self, place: usize) -> i64 {
+        debug_assert!(place < self.modulus.get() as usize, "a remainder");
         self.least.get(place).copied().unwrap_or(NEVER)
     }
 
     /// The same with one more activity, whose items lose at most `most`.
     pub(super) fn with<const A: usize>(&self, own: &[Item<A>], most: i64) -> Self {
         let mut next = *self;
+        debug_assert!(own.is_sorted_by_key(Item::reduced_cost), "the least reduced cost first");
         let [best, others @ ..] = own else { return next };
         let modulus = self.modulus.get();
         let base = best.value % self.modulus;
-        // Of the items with one remainder the first loses least; the best one itself changes none.
+        // Only the first item of each remainder counts: its reduced cost is the least. The best
+        // item changes no remainder.
         let mut taken = 1u32;
-        for item in others.iter().take_while(|item| item.loss() <= most) {
+        for item in others.iter().take_while(|item| item.reduced_cost() <= most) {
             let above = (item.value % self.modulus).wrapping_sub(base);
             let step = if above < modulus { above } else { above.wrapping_add(modulus) };
+            debug_assert!(step < modulus, "a remainder");
             let bit = 1u32.wrapping_shl(step);
             if taken & bit > 0 {
                 continue;
             }
             taken |= bit;
             let (step, modulus) = (step as usize, modulus as usize);
-            for (from, &loss) in self.least.iter().enumerate().take(modulus) {
-                let sum = from.wrapping_add(step);
-                let to = if sum < modulus { sum } else { sum.wrapping_sub(modulus) };
+            for (from, &reduced_cost) in self.least.iter().enumerate().take(modulus) {
+                let end = from.wrapping_add(step);
+                let to = if end < modulus { end } else { end.wrapping_sub(modulus) };
                 if let Some(least) = next.least.get_mut(to) {
-                    *least = loss.wrapping_add(item.loss()).min(*least);
+                    *least = sum(reduced_cost, item.reduced_cost()).min(*least);
                 }
             }
         }
         next
     }
 
-    /// What a level keeps of them, where `allowance` is the most that a plan may lose and each unit
-    /// of value has `fraction` bits.
+    /// Returns the residues that a level keeps, where `allowance` is the largest reduced cost of a
+    /// plan and each unit of value has `fraction` bits.
     pub(super) fn residues(&self, allowance: i64, fraction: u32) -> Residues {
         if !self.matter() {
             return Residues::NONE;
         }
+        debug_assert!(allowance >= 0, "a plan at the target is within the bound");
         let (modulus, grain) = (self.modulus.get() as usize, grain(allowance));
         let mut residues = Residues::NONE;
         // More than what is lacking will do, and leaves less to lose. No change loses nothing.
         let mut above = 0i64;
-        for (least, &loss) in residues.least.iter_mut().zip(&self.least).take(modulus).skip(1).rev()
+        for (least, &reduced_cost) in
+            residues.least.iter_mut().zip(&self.least).take(modulus).skip(1).rev()
         {
-            above = above.wrapping_add(1i64.wrapping_shl(fraction)).min(loss);
+            above = sum(above, 1i64.wrapping_shl(fraction)).min(reduced_cost);
             *least = u16::try_from(above.wrapping_shr(grain)).unwrap_or(u16::MAX);
         }
         residues
@@ -123,20 +129,8 @@ impl Remainders {
     }
 }
 
-/// The least loss at which some activities gain each remainder or more, in few bytes: rounded down,
-/// so that no plan is excluded.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Residues {
-    least: [u16; REMAINDERS],
-}
-
-impl Residues {
-    /// Every value can be reached.
-    pub(super) const NONE: Self = Self { least: [0; REMAINDERS] };
-}
-
-/// How many bits of a loss its 16 bits leave out, so that no `allowance` or less comes near the
-/// loss that no plan can pay.
+/// How many bits of a reduced cost its 16 bits leave out, so that no `allowance` or less comes near
+/// the reduced cost that no plan can pay.
 pub(super) const fn grain(allowance: i64) -> u32 {
     (i64::BITS - 15).saturating_sub(allowance.leading_zeros())
 }
@@ -150,17 +144,21 @@ pub(super) fn bound<const A: usize>(
     none: &Remainders,
     bound: i64,
 ) -> i64 {
-    // What may be lost by a plan worth less than all remainders below the bound.
+    debug_assert!(frame.priced(bound) <= price.bound, "the best items pay for their remainder");
+    // The allowance of a plan whose value is below all remainders under the bound.
     let lowest = bound.wrapping_sub(i64::from(none.modulus.get()));
-    let allowance = |value: i64| price.bound.wrapping_sub(frame.priced(value));
+    let allowance = |value: i64| difference(price.bound, frame.priced(value));
     let mut all = *none;
     let mut base = 0i64;
     for own in stages.iter().map(|stage| stage.items(items)) {
-        base = base.wrapping_add(own.first().map_or(0, |best| i64::from(best.value)));
+        base = sum(base, own.first().map_or(0, |best| i64::from(best.value)));
         all = all.with(own, allowance(lowest));
     }
-    let paid = |&value: &i64| all.loss(all.place(value.wrapping_sub(base))) <= allowance(value);
-    (lowest..=bound).rev().find(paid).unwrap_or(lowest)
+    let paid =
+        |&value: &i64| all.reduced_cost(all.place(value.wrapping_sub(base))) <= allowance(value);
+    let found = (lowest..=bound).rev().find(paid);
+    debug_assert!(found.is_some(), "the best items pay for their own remainder");
+    found.unwrap_or(lowest)
 }
 
 const fn gcd(mut a: u32, mut b: u32) -> u32 {

@@ -1,21 +1,23 @@
 //! Depth-first search for a plan that is worth a target.
 //!
-//! At the dual prices a plan is worth *bound - sum of losses - price of its slack*. To be worth at
-//! least the target, losses and slack together may use up to *allowance = bound - target*; items
-//! whose own loss exceeds it cannot be in such a plan (reduced-cost fixing), and activities with
-//! one item left need no level.
+//! At the dual prices a plan is worth *bound - sum of reduced costs - price of its slack*. To be
+//! worth at least the target, reduced costs and slack together may use up to *allowance = bound -
+//! target*; items whose own reduced cost exceeds it cannot be in such a plan (reduced-cost fixing),
+//! and activities with one item left need no level.
 
 use super::Budget;
+use super::bounds::{prepare, steps};
 use super::congruence::{Remainders, grain};
 use super::dual::Price;
-use super::level::{Point, Rest, prepare, steps};
+use super::item::Item;
+use super::level::{Point, Rest};
 use super::load::Frame;
-use super::memory::{Item, Seen, Stage};
-use super::rows::Rows;
+use super::memory::{Seen, Stage};
+use super::rows::{Rows, difference, sum};
 use crate::order::{numbered, sort_list};
 use core::cmp::Reverse;
 
-/// A dive: some activities have a level each, the others keep one item.
+/// A depth-first branch and bound: some activities have a level each, the others keep one item.
 pub(super) struct Dive<'d, const A: usize> {
     frame: &'d Frame<A>,
     price: &'d Price<A>,
@@ -27,16 +29,16 @@ pub(super) struct Dive<'d, const A: usize> {
     stages: &'d mut [Stage<A>],
     /// The value looked for; one above the best found once one is found.
     target: i64,
-    /// What losses and priced slack may use up together.
+    /// Upper limit of the sum of reduced costs and priced slack.
     allowance: i64,
     levels: usize,
     /// Whether activities without a level keep the item of the best plan, and not their best one.
-    home: bool,
-    /// What is left with every level at its best item.
+    around_best: bool,
+    /// The point at which every level takes its best item.
     root: Point<A>,
-    /// What all levels can do.
+    /// The bounds over all levels.
     rest: Rest<A>,
-    /// Bits of a loss that residues leave out.
+    /// Bits of a reduced cost that residues leave out.
     grain: u32,
     notes: Notes<'d, A>,
 }
@@ -56,7 +58,7 @@ struct Notes<'d, const A: usize> {
 const NOT_KEPT: usize = 4;
 
 impl<'d, const A: usize> Dive<'d, A> {
-    /// Needs losses, and each activity's items in the order of rising loss.
+    /// Needs reduced costs, and each activity's items in the order of rising reduced cost.
     pub(super) fn new(
         frame: &'d Frame<A>,
         price: &'d Price<A>,
@@ -65,6 +67,7 @@ impl<'d, const A: usize> Dive<'d, A> {
         stages: &'d mut [Stage<A>],
         seen: &'d mut [Seen<A>],
     ) -> Self {
+        debug_assert!(u16::try_from(stages.len()).is_ok(), "a rank fits its 16 bits");
         for (at, stage) in numbered(stages.iter_mut()) {
             stage.level.ranked = at as u16;
         }
@@ -88,7 +91,7 @@ impl<'d, const A: usize> Dive<'d, A> {
             target: 0,
             allowance: 0,
             levels: 0,
-            home: false,
+            around_best: false,
             root: Point::ZERO,
             rest: Rest::NONE,
             grain: 0,
@@ -118,14 +121,14 @@ impl<'d, const A: usize> Dive<'d, A> {
     /// Looks for plans worth this from now on.
     pub(super) fn aim(&mut self, target: i64) {
         self.target = target;
-        self.allowance = self.price.bound.wrapping_sub(self.frame.priced(target));
+        self.allowance = difference(self.price.bound, self.frame.priced(target));
     }
 
     /// Frees every activity that can change within the allowance.
     pub(super) fn free_all(&mut self) {
         self.levels = 0;
         self.root = Point { room: self.frame.room, ..Point::ZERO };
-        self.home = false;
+        self.around_best = false;
         for stage in self.stages.iter() {
             self.root = self.root.with(stage.item(self.items, 0));
         }
@@ -137,6 +140,7 @@ impl<'d, const A: usize> Dive<'d, A> {
             }
             self.levels = self.levels.wrapping_add(1);
         }
+        debug_assert!(self.levels <= self.stages.len(), "a level is an activity");
         let first = self.stages.len().saturating_sub(self.levels);
         for depth in 0..self.levels {
             let at =
@@ -148,26 +152,26 @@ impl<'d, const A: usize> Dive<'d, A> {
         self.prepare();
     }
 
-    /// What the best plan leaves, and the activity that loses most in it.
-    pub(super) fn home(&self) -> (Point<A>, usize) {
-        let mut home = Point { room: self.frame.room, ..Point::ZERO };
+    /// Returns the point of the best plan, and the activity with the largest reduced cost in it.
+    pub(super) fn best_point(&self) -> (Point<A>, usize) {
+        let mut best = Point { room: self.frame.room, ..Point::ZERO };
         let (mut worst, mut most) = (0, 0);
         for (at, stage) in numbered(self.stages.iter()) {
             let item = stage.item(self.items, stage.best);
-            home = home.with(item);
-            if item.loss() > most {
-                (worst, most) = (at, item.loss());
+            best = best.with(item);
+            if item.reduced_cost() > most {
+                (worst, most) = (at, item.reduced_cost());
             }
         }
-        (home, worst)
+        (best, worst)
     }
 
     /// Frees an activity and a few more, drawn by `round`; the others keep the best plan, which
-    /// leaves `home`.
-    pub(super) fn free_some(&mut self, home: Point<A>, first: usize, count: usize, round: u64) {
+    /// leaves `best`.
+    pub(super) fn free_some(&mut self, best: Point<A>, first: usize, count: usize, round: u64) {
         self.levels = 0;
-        self.home = true;
-        self.root = home;
+        self.around_best = true;
+        self.root = best;
         for draw in 0..count as u64 {
             // A multiplicative hash (Knuth, The Art of Computer Programming 3, section 6.4).
             let mixed = (round << 8 | draw).wrapping_mul(0x9E37_79B9_7F4A_7C15);
@@ -179,7 +183,7 @@ impl<'d, const A: usize> Dive<'d, A> {
             let (own, best) = (stage.items(self.items), stage.item(self.items, stage.best));
             let at = at as u16;
             let taken = self.stages.iter().take(self.levels).any(|s| s.level.stage == at);
-            if !taken && own.get(1).is_some_and(|item| item.loss() <= self.allowance) {
+            if !taken && own.get(1).is_some_and(|item| item.reduced_cost() <= self.allowance) {
                 self.root = self.root.without(best).with(own.first().unwrap_or(Item::NONE));
                 self.free(at);
             }
@@ -189,6 +193,8 @@ impl<'d, const A: usize> Dive<'d, A> {
 
     /// Gives an activity a level, behind those of costlier changes.
     fn free(&mut self, at: u16) {
+        debug_assert!(self.levels < self.stages.len(), "each activity has one level at most");
+        debug_assert!(usize::from(at) < self.stages.len(), "an activity");
         let mut place = self.levels;
         while let Some(before) = place.checked_sub(1) {
             let other = self.stages.get(before).map_or(0, |stage| stage.level.stage);
@@ -208,6 +214,7 @@ impl<'d, const A: usize> Dive<'d, A> {
 
     /// Fills the bounds of the levels.
     fn prepare(&mut self) {
+        debug_assert!(self.allowance >= 0, "the target is within the bound");
         self.notes.number = self.notes.number.wrapping_add(1);
         let noted = self.notes.noted > 0;
         self.notes.deepest = if noted { self.levels.saturating_sub(NOT_KEPT) } else { 0 };
@@ -231,7 +238,7 @@ impl<'d, const A: usize> Dive<'d, A> {
     fn visit(&mut self, left: &mut u64) -> bool {
         let items = self.items;
         let root = self.root;
-        if root.loss > self.allowance || !root.room.none_negative() {
+        if root.reduced_cost > self.allowance || !root.room.none_negative() {
             return true;
         }
         if self.levels == 0 {
@@ -249,13 +256,14 @@ impl<'d, const A: usize> Dive<'d, A> {
         loop {
             let below = depth.wrapping_add(1);
             let last = below == self.levels;
+            debug_assert!(below <= self.levels && self.levels <= self.stages.len(), "a level");
             let Some(Stage { level, .. }) = self.stages.get(depth) else { return true };
             let mut found = None;
             let mut cursor = level.cursor;
             while let Some(item) = level.item(items, cursor) {
                 cursor = cursor.wrapping_add(1);
                 let point = level.point.with(item);
-                if point.loss > self.allowance {
+                if point.reduced_cost > self.allowance {
                     if cursor > 1 {
                         break; // the ones behind lose even more
                     }
@@ -298,8 +306,8 @@ impl<'d, const A: usize> Dive<'d, A> {
     /// Whether levels that can do `rest` may lead from a point to the target.
     #[inline]
     fn promising(&self, rest: &Rest<A>, point: &Point<A>) -> bool {
-        let left = self.allowance.wrapping_sub(point.loss);
-        let lacking = self.target.wrapping_sub(point.value);
+        let left = difference(self.allowance, point.reduced_cost);
+        let lacking = difference(self.target, point.value);
         rest.priced(point, &self.steps, lacking, left)
             && (!self.remainders.matter()
                 || self.remainders.reach(&rest.residues, lacking, left, self.grain))
@@ -309,7 +317,7 @@ impl<'d, const A: usize> Dive<'d, A> {
     fn keep(&mut self, value: i64) {
         debug_assert!(value >= self.target, "a better plan");
         self.aim(value.wrapping_add(1));
-        if !self.home {
+        if !self.around_best {
             for stage in self.stages.iter_mut() {
                 stage.best = 0;
             }
@@ -320,6 +328,13 @@ impl<'d, const A: usize> Dive<'d, A> {
                 stage.best = level.chosen();
             }
         }
+        debug_assert_eq!(self.best_value(), value, "the plan that is kept is worth this");
+    }
+
+    /// Returns the value of the best plan.
+    fn best_value(&self) -> i64 {
+        let value = |stage: &Stage<A>| i64::from(stage.item(self.items, stage.best).value);
+        self.stages.iter().map(value).fold(0, sum)
     }
 }
 
@@ -330,6 +345,7 @@ impl<const A: usize> Notes<'_, A> {
     /// the same activities that are worth the same, the one with less room in every row is not
     /// needed.
     fn seen_before(&mut self, depth: usize, point: &Point<A>) -> bool {
+        debug_assert!(0 < self.noted && self.noted <= self.seen.len(), "there is room for nodes");
         let node = Seen::new(self.number, depth, point.value, &point.room);
         let Some(seen) = self.seen.get_mut(drawn(node.mixed(), self.noted)) else { return false };
         if seen.covers(&node) {
@@ -340,19 +356,21 @@ impl<const A: usize> Notes<'_, A> {
     }
 }
 
-/// What a change of an activity costs at least: the loss of its second item.
+/// Returns the least cost of a change of an activity: the reduced cost of its second item.
 fn change<const A: usize>(stages: &[Stage<A>], items: &[Item<A>], at: u16) -> i64 {
+    debug_assert!((at as usize) < stages.len(), "an activity");
     let own = stages.get(usize::from(at)).map_or(&[][..], |stage| stage.items(items));
-    own.get(1).map_or(i64::MAX, Item::loss)
+    own.get(1).map_or(i64::MAX, Item::reduced_cost)
 }
 
-/// Where an activity stands in the order of the search: the costliest to change first, since a
-/// change there leaves little for the others.
+/// Returns the sort key of an activity: the costliest to change is searched first, since a change
+/// there leaves little for the others.
 fn ranked<const A: usize>(stages: &[Stage<A>], items: &[Item<A>], at: u16) -> (Reverse<i64>, u16) {
     (Reverse(change(stages, items, at)), at)
 }
 
 /// A place below `count`, from bits that look random.
 const fn drawn(mixed: u64, count: usize) -> usize {
+    debug_assert!(count > 0, "there is a place to draw");
     ((mixed as u128).wrapping_mul(count as u128) >> 64) as usize
 }

@@ -7,7 +7,7 @@
 //! never truth.
 
 use super::load::Frame;
-use super::rows::Rows;
+use super::rows::{Rows, difference, sum};
 use super::{Budget, Item, Stage};
 
 /// A point of the dual function.
@@ -42,6 +42,8 @@ impl<const A: usize> Dual<'_, A> {
     /// The bound at these multipliers.
     fn price(&mut self, multiplier: Rows<A>) -> Option<Price<A>> {
         self.budget.take(self.stages.len() as u64)?;
+        let above = self.frame.most_multiplier.minus(&multiplier);
+        debug_assert!(above.none_negative() && multiplier.none_negative(), "priced sums fit");
         let mut bound = multiplier.dot(&self.frame.room);
         let mut slope = self.frame.room;
         for stage in self.stages {
@@ -54,8 +56,9 @@ impl<const A: usize> Dual<'_, A> {
                     taken = Some(item);
                 }
             }
+            debug_assert!(taken.is_some(), "each activity has an item");
             if let Some(item) = taken {
-                bound = bound.wrapping_add(best);
+                bound = sum(bound, best);
                 slope = slope.minus(&item.rows());
             }
         }
@@ -99,13 +102,15 @@ impl<const A: usize> Dual<'_, A> {
         for _ in 0..SECANTS {
             let (left, right) = (low.multiplier.get(row), high.multiplier.get(row));
             let (down, up) = (low.slope.get(row), high.slope.get(row));
-            let width = right.wrapping_sub(left);
+            debug_assert!(left <= right && down < 0 && up >= 0, "the least bound is in between");
+            let width = difference(right, left);
             if up == 0 || width <= 1 {
                 break;
             }
-            // Where the tangents meet, and how low the bound could be there.
+            // The intersection of the tangents, and the least bound possible there.
             let gap = i128::from(high.bound).wrapping_sub(i128::from(low.bound));
             let fall = i128::from(up).wrapping_sub(i128::from(down));
+            debug_assert!(fall > 0, "the tangents meet");
             let Some(step) =
                 i128::from(up).wrapping_mul(i128::from(width)).wrapping_sub(gap).checked_div(fall)
             else {
@@ -116,9 +121,10 @@ impl<const A: usize> Dual<'_, A> {
             if best.wrapping_sub(floor) <= i128::from(self.frame.priced(1) >> 7) {
                 break;
             }
-            let inner = i64::try_from(step).unwrap_or(1).max(1).min(width.wrapping_sub(1));
-            let middle = left.wrapping_add(inner);
-            let nearest = if inner < width.wrapping_sub(inner) { low } else { high };
+            let inner = i64::try_from(step).unwrap_or(1).max(1).min(difference(width, 1));
+            let middle = sum(left, inner);
+            debug_assert!(left < middle && middle < right, "the range becomes smaller");
+            let nearest = if inner < difference(width, inner) { low } else { high };
             let Some(price) = self.at(row, middle, &nearest) else { break };
             if price.slope.get(row) < 0 {
                 low = price;
@@ -144,6 +150,7 @@ fn meet<const A: usize>(low: &Price<A>, high: &Price<A>, row: usize) -> Price<A>
     let down = i128::from(low.slope.get(row)).wrapping_neg();
     let up = i128::from(high.slope.get(row));
     let better = if low.bound < high.bound { low } else { high };
+    debug_assert!(down >= 0 && up >= 0, "the bound falls to the one and rises from the other");
     let both = down.wrapping_add(up);
     if both <= 0 {
         return *better;

@@ -1,73 +1,79 @@
-//! One level of the search, and the bounds of the levels from it on.
-//!
-//! A node is bounded at several multipliers (value per unit of a row): the best ones, at which its
-//! loss says all, and for each row those with this row dearer or cheaper. A node that has run short
-//! of a row is excluded by the dearer ones, a node that has left too much of it by the cheaper
-//! ones. With *y = step * (what is left of the row)* the first are two steps above the best, the
-//! second one step below, so that one product prices both.
+//! One level of the search, and what is known of the levels behind it.
 
-use super::congruence::{Remainders, Residues};
-use super::dual::Price;
-use super::load::Frame;
-use super::memory::{Item, Stage};
-use super::rows::Rows;
+use super::item::Item;
+use super::rows::{Rows, difference, product, sum};
 
-/// An activity with more than one item within the loss allowed.
+/// The most remainders kept.
+pub(super) const REMAINDERS: usize = 16;
+
+/// An activity with more than one item within the reduced cost allowed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Level<const A: usize> {
     /// The activities in the order of the search: a list of its own, made once.
     pub(super) ranked: u16,
     /// The activity, the first of its items, and how many lose no more than is allowed.
     pub(super) stage: u16,
-    first: u32,
-    count: u16,
+    pub(super) first: u32,
+    pub(super) count: u16,
     /// The item visited first: that of the plan so far.
-    base: u16,
+    pub(super) base: u16,
     /// How many items have been visited.
     pub(super) cursor: u16,
     /// The least of its items in each row, and the value of the best one.
-    least: [u32; A],
-    least_deficit: u32,
-    best_value: u32,
-    /// What is left before this level, without its least amounts and the value of its best item.
+    pub(super) least: [u32; A],
+    pub(super) least_deficit: u32,
+    pub(super) best_value: u32,
+    /// The point before this level, without its least amounts and the value of its best item.
     pub(super) point: Point<A>,
-    /// What the levels behind it can do.
+    /// The bounds over the levels behind this one.
     pub(super) rest: Rest<A>,
 }
 
-/// What some levels can do for a plan at most.
+/// Upper bounds of the contribution of some levels to a plan.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rest<const A: usize> {
-    /// What they can gain with a row dearer, and with it cheaper, over what [`Point::room`] says.
-    dearer: Rows<A>,
-    cheaper: Rows<A>,
-    /// What they can add to the value.
-    value: i64,
-    /// By how much they can change the value, modulo what is common, and at which loss.
+    /// Largest gain of the levels with a row dearer, and with it cheaper, over [`Point::room`].
+    pub(super) dearer: Rows<A>,
+    pub(super) cheaper: Rows<A>,
+    /// Largest sum that the levels add to the value.
+    pub(super) value: i64,
+    /// By how much they can change the value, modulo what is common, and at which reduced cost.
     pub(super) residues: Residues,
 }
 
-/// What a partial plan leaves, the open activities at their best items.
+/// Totals of a partial plan, with the open activities at their best items.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point<const A: usize> {
     /// The room in each row when every open activity takes its least there.
     pub(super) room: Rows<A>,
-    /// What the plan loses at the best prices.
-    pub(super) loss: i64,
-    /// What the plan is worth.
+    /// Sum of the reduced costs at the best prices.
+    pub(super) reduced_cost: i64,
+    /// Value of the plan.
     pub(super) value: i64,
 }
 
+/// The least reduced cost at which some activities gain each remainder or more, in few bytes:
+/// rounded down, so that no plan is excluded.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Residues {
+    pub(super) least: [u16; REMAINDERS],
+}
+
+impl Residues {
+    /// Every value can be reached.
+    pub(super) const NONE: Self = Self { least: [0; REMAINDERS] };
+}
+
 impl<const A: usize> Point<A> {
-    pub(super) const ZERO: Self = Self { room: Rows::ZERO, loss: 0, value: 0 };
+    pub(super) const ZERO: Self = Self { room: Rows::ZERO, reduced_cost: 0, value: 0 };
 
     /// The point with `item` taken.
     #[inline]
     pub(super) fn with(&self, item: &Item<A>) -> Self {
         Self {
             room: self.room.minus(&item.rows()),
-            loss: self.loss.wrapping_add(item.loss()),
-            value: self.value.wrapping_add(i64::from(item.value)),
+            reduced_cost: sum(self.reduced_cost, item.reduced_cost()),
+            value: sum(self.value, i64::from(item.value)),
         }
     }
 
@@ -76,8 +82,8 @@ impl<const A: usize> Point<A> {
     pub(super) fn without(&self, item: &Item<A>) -> Self {
         Self {
             room: self.room.plus(&item.rows()),
-            loss: self.loss.wrapping_sub(item.loss()),
-            value: self.value.wrapping_sub(i64::from(item.value)),
+            reduced_cost: difference(self.reduced_cost, item.reduced_cost()),
+            value: difference(self.value, i64::from(item.value)),
         }
     }
 }
@@ -100,10 +106,10 @@ impl<const A: usize> Rest<A> {
         if lacking > self.value {
             return false;
         }
-        let price = steps.zip(&point.room, i64::wrapping_mul);
+        let price = steps.zip(&point.room, product);
         let dearer = self.dearer.plus(&price).plus(&price);
         let cheaper = self.cheaper.minus(&price);
-        dearer.zip(&cheaper, |a, b| a.wrapping_add(left) | b.wrapping_add(left)).none_negative()
+        dearer.zip(&cheaper, |a, b| sum(a, left) | sum(b, left)).none_negative()
     }
 }
 
@@ -123,7 +129,7 @@ impl<const A: usize> Level<A> {
     };
 
     /// The place of the item that is visited at a turn: that of the best plan first, then the
-    /// others by rising loss.
+    /// others by rising reduced cost.
     #[inline]
     fn place(&self, turn: u16) -> u16 {
         match turn {
@@ -135,6 +141,7 @@ impl<const A: usize> Level<A> {
 
     /// The place of the item that was visited last.
     pub(super) fn chosen(&self) -> u16 {
+        debug_assert!(0 < self.cursor && self.cursor <= self.count, "an item has been visited");
         self.place(self.cursor.wrapping_sub(1))
     }
 
@@ -145,6 +152,7 @@ impl<const A: usize> Level<A> {
         if place >= self.count {
             return None;
         }
+        debug_assert!(self.first as usize + usize::from(self.count) <= items.len(), "its items");
         items.get(self.first.wrapping_add(place.into()) as usize)
     }
 
@@ -155,70 +163,8 @@ impl<const A: usize> Level<A> {
         self.cursor = 0;
         self.point = Point {
             room: point.room.plus(&least),
-            loss: point.loss,
-            value: point.value.wrapping_sub(self.best_value.into()),
+            reduced_cost: point.reduced_cost,
+            value: difference(point.value, self.best_value.into()),
         };
     }
-}
-
-/// How far the prices of each row are moved to price nodes anew.
-pub(super) fn steps<const A: usize>(frame: &Frame<A>, price: &Price<A>) -> Rows<A> {
-    // Twice a step more is at most the largest multiplier.
-    frame.most_multiplier.zip(&price.multiplier, |most, best| best.min(most.wrapping_sub(best)) / 2)
-}
-
-/// Fills the bounds of the levels, from the last one back. Returns how much of each row they can
-/// save together, against their best items, and what else they can do.
-pub(super) fn prepare<const A: usize>(
-    items: &[Item<A>],
-    stages: &mut [Stage<A>],
-    steps: &Rows<A>,
-    none: &Remainders,
-    (levels, allowance, fraction): (usize, i64, u32),
-) -> (Rows<A>, Rest<A>) {
-    let mut saving = Rows::ZERO;
-    let mut rest = Rest::NONE;
-    let mut remainders = *none;
-    let price = |rows: &Rows<A>| steps.zip(rows, i64::wrapping_mul);
-    for depth in (0..levels).rev() {
-        let at = stages.get(depth).map_or(0, |it| it.level.stage);
-        let Some(stage) = stages.get(usize::from(at)) else { break };
-        let (first, base) = (stage.first, stage.best);
-        let own = stage.items(items);
-        let Some(best) = own.first() else { break };
-        let (best_value, best) = (best.value, best.rows());
-        let mut least = best;
-        let mut more = price(&best).zip(&best, |price, _| price.wrapping_mul(-2));
-        let mut less = price(&best);
-        let (mut count, mut most_value) = (0u16, best_value);
-        for item in own.iter().take_while(|item| item.loss() <= allowance) {
-            let (rows, loss) = (item.rows(), item.loss());
-            let price = price(&rows);
-            least = least.zip(&rows, i64::min);
-            more =
-                more.zip(&price, |most, price| most.max(price.wrapping_mul(-2).wrapping_sub(loss)));
-            less = less.zip(&price, |most, price| most.max(price.wrapping_sub(loss)));
-            most_value = most_value.max(item.value);
-            count = count.wrapping_add(1);
-        }
-        let floor = price(&least);
-        rest.residues = remainders.residues(allowance, fraction);
-        let Some(Stage { level, .. }) = stages.get_mut(depth) else { break };
-        (level.first, level.count) = (first, count);
-        // One that loses too much is not visited.
-        level.base = if base < count { base } else { 0 };
-        level.least = least.axes.map(|least| least.unsigned_abs() as u32);
-        level.least_deficit = least.quality.unsigned_abs() as u32;
-        level.best_value = best_value;
-        level.rest = rest;
-        rest.value = rest.value.wrapping_add(most_value.wrapping_sub(best_value).into());
-        rest.dearer = rest.dearer.plus(&more).plus(&floor).plus(&floor);
-        rest.cheaper = rest.cheaper.plus(&less).minus(&floor);
-        saving = saving.plus(&best).minus(&least);
-        if remainders.matter() {
-            remainders = remainders.with(own, allowance);
-        }
-    }
-    rest.residues = remainders.residues(allowance, fraction);
-    (saving, rest)
 }

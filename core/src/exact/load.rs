@@ -1,7 +1,7 @@
 //! The problem as the search sees it: costs above the least, values above the least, dominated
 //! candidates gone.
 
-use super::rows::Rows;
+use super::rows::{Rows, sum};
 use super::{Item, Objective, Stage};
 use crate::order::{keep_undominated, numbered, sort_by_key};
 use crate::problem::{Candidate, Problem, cheapest};
@@ -14,7 +14,7 @@ pub(super) struct Aim<const A: usize> {
     pub(super) quality_floor: u64,
 }
 
-/// What is the same for all activities.
+/// Constants shared by all activities.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame<const A: usize> {
     /// Room in each row above what the cheapest candidates take.
@@ -77,6 +77,7 @@ pub(super) fn load<const A: usize>(
         let best_quality = candidates.iter().map(|c| c.quality).max().unwrap_or(0);
         deficit_room = deficit_room.saturating_add(i128::from(best_quality));
     }
+    debug_assert!(i64::try_from(deficit_room).is_ok(), "a quality that a plan has is a floor");
     room.quality = i64::try_from(deficit_room).unwrap_or(i64::MIN);
     if !room.none_negative() {
         return None;
@@ -88,6 +89,7 @@ pub(super) fn load<const A: usize>(
         let cheapest: [u32; A] = core::array::from_fn(|axis| cheapest(candidates, axis));
         let best_quality = candidates.iter().map(|c| c.quality).max().unwrap_or(0);
         let least = candidates.iter().map(|c| value(c, aim.objective)).min().unwrap_or(0);
+        debug_assert!(first <= items.len(), "an item a candidate");
         let own = items.get_mut(first..).unwrap_or(&mut []);
         let mut count = 0usize;
         for (choice, candidate) in numbered(candidates.iter()) {
@@ -96,7 +98,9 @@ pub(super) fn load<const A: usize>(
                 *cost = cost.saturating_sub(cheapest);
             }
             let deficit = if floored { best_quality.saturating_sub(candidate.quality) } else { 0 };
-            let value = value(candidate, aim.objective).abs_diff(least) as u32;
+            let above = value(candidate, aim.objective).abs_diff(least);
+            debug_assert!(u32::try_from(above).is_ok(), "values of one objective span 32 bits");
+            let value = above as u32;
             let item = Item::new(cost, deficit, value, choice as u16);
             if room.minus(&item.rows()).none_negative() {
                 *own.get_mut(count)? = item;
@@ -107,16 +111,18 @@ pub(super) fn load<const A: usize>(
         if kept.is_empty() {
             return None;
         }
+        debug_assert!(u16::try_from(kept.len()).is_ok(), "an item is a candidate");
         *stage = Stage { first: first as u32, count: kept.len() as u16, ..Stage::EMPTY };
         let most_of = |row: usize| kept.iter().map(|i| i.rows().get(row)).max().unwrap_or(0);
         for row in 0..Rows::<A>::COUNT {
-            largest.set(row, largest.get(row).saturating_add(most_of(row)));
+            largest.set(row, sum(largest.get(row), most_of(row)));
         }
-        most = most.saturating_add(kept.iter().map(|i| i64::from(i.value)).max().unwrap_or(0));
+        most = sum(most, kept.iter().map(|i| i64::from(i.value)).max().unwrap_or(0));
         least_value = least_value.saturating_add(i128::from(least));
         first = first.wrapping_add(kept.len());
     }
 
+    debug_assert!(most >> 48 == 0, "sums of values fit 48 bits, as nodes keep them");
     let mut frame = Frame {
         room: room.zip(&largest, i64::min),
         least_value,
@@ -142,6 +148,7 @@ const COMPARED: usize = 1024;
 /// no other dominates to the front; returns those.
 fn undominated<const A: usize>(items: &mut [Item<A>]) -> &[Item<A>] {
     sort_by_key(items, |i| (core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice()));
+    debug_assert!(items.is_sorted_by_key(|i| core::cmp::Reverse(i.value)), "the best value first");
     keep_undominated(items, COMPARED, |other, item| {
         // Whatever comes before has at least its value.
         other.deficit <= item.deficit && other.cost.iter().zip(&item.cost).all(|(a, b)| a <= b)

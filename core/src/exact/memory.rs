@@ -1,66 +1,9 @@
-//! The caller's memory: one element for each candidate, each activity, each remembered node.
+//! The caller's memory: one element for each activity, and each remembered node; that of each
+//! candidate is an [`Item`].
 
+use super::item::Item;
 use super::level::Level;
 use super::rows::Rows;
-
-/// Working memory for one candidate. Give [`Exact::new`](super::Exact::new) one for each candidate
-/// of the problem.
-#[derive(Clone, Copy, Debug)]
-pub struct Item<const A: usize> {
-    /// Cost above the cheapest of the activity.
-    pub(super) cost: [u32; A],
-    /// Quality below the best of the activity, where an objective before fixed the quality.
-    pub(super) deficit: u32,
-    /// Value above the least of the activity.
-    pub(super) value: u32,
-    /// The loss in 48 bits, and the position among the candidates as written in 16.
-    lost: u64,
-}
-
-/// Bits of a loss that are not kept; a loss is rounded down, so that no plan is excluded.
-const GRAIN: u32 = 4;
-/// Bits of an item's position among the candidates as written.
-const CHOICE: u32 = u16::BITS;
-
-impl<const A: usize> Item<A> {
-    /// Unused memory.
-    pub const EMPTY: Self = Self { cost: [0; A], deficit: 0, value: 0, lost: 0 };
-    pub(super) const NONE: &'static Self = &Self::EMPTY;
-
-    pub(super) const fn new(cost: [u32; A], deficit: u32, value: u32, choice: u16) -> Self {
-        Self { cost, deficit, value, lost: choice as u64 }
-    }
-
-    #[inline]
-    pub(super) fn rows(&self) -> Rows<A> {
-        Rows { axes: self.cost.map(i64::from), quality: i64::from(self.deficit) }
-    }
-
-    /// The value at these prices, with `fraction` fraction bits.
-    #[inline]
-    pub(super) fn reduced(&self, multiplier: &Rows<A>, fraction: u32) -> i64 {
-        i64::from(self.value).wrapping_shl(fraction).wrapping_sub(multiplier.dot(&self.rows()))
-    }
-
-    /// What is lost at the current prices against the best of the activity. A loss of 2^52 or more,
-    /// which no plan within any allowance has, is kept as the largest below.
-    #[inline]
-    pub(super) const fn loss(&self) -> i64 {
-        ((self.lost >> CHOICE) << GRAIN).cast_signed()
-    }
-
-    /// Sets the loss, which is not negative.
-    pub(super) fn lose(&mut self, loss: i64) {
-        let kept = (loss.cast_unsigned() >> GRAIN).min(u64::MAX >> CHOICE);
-        self.lost = kept << CHOICE | u64::from(self.choice());
-    }
-
-    /// Position among the candidates as written.
-    #[inline]
-    pub(super) const fn choice(&self) -> u16 {
-        self.lost as u16
-    }
-}
 
 /// Working memory for one activity. Give [`Exact::new`](super::Exact::new) one for each activity of
 /// the problem.
@@ -86,11 +29,13 @@ impl<const A: usize> Stage<A> {
 
     #[inline]
     pub(super) fn items<'i>(&self, items: &'i [Item<A>]) -> &'i [Item<A>] {
+        debug_assert!(self.range().end <= items.len(), "the items of an activity are loaded");
         items.get(self.range()).unwrap_or(&[])
     }
 
     #[inline]
     pub(super) fn item<'i>(&self, items: &'i [Item<A>], index: u16) -> &'i Item<A> {
+        debug_assert!(index < self.count, "an item of the activity");
         items.get(self.first.wrapping_add(index.into()) as usize).unwrap_or(Item::NONE)
     }
 }
@@ -104,7 +49,7 @@ pub struct Seen<const A: usize> {
     quality: u32,
     /// The dive that saw it.
     dive: u32,
-    /// Its value in 48 bits, and its depth in 16.
+    /// The value of the node in the upper 48 bits, its depth in the lower 16.
     place: u64,
 }
 
@@ -117,6 +62,9 @@ impl<const A: usize> Seen<A> {
 
     /// The node of a dive at this depth, with this value and room, neither of them negative.
     pub(super) fn new(dive: u32, depth: usize, value: i64, room: &Rows<A>) -> Self {
+        debug_assert!(room.none_negative(), "a node that is noted is within the limits");
+        debug_assert!(value.cast_unsigned().leading_zeros() >= DEPTH, "a value fits its bits");
+        debug_assert!(depth < 1 << DEPTH, "a depth fits its bits");
         let kept = |room: i64| room.cast_unsigned().min(u32::MAX.into()) as u32;
         Self {
             room: room.axes.map(kept),
@@ -126,8 +74,7 @@ impl<const A: usize> Seen<A> {
         }
     }
 
-    /// Where a node may be noted: a number that looks random, the same for nodes that differ in
-    /// room only.
+    /// Returns a hash of the node for its slot; nodes that differ in room only share it.
     pub(super) const fn mixed(&self) -> u64 {
         // A multiplicative hash (Knuth, The Art of Computer Programming 3, section 6.4), twice.
         let mixed = self.place.wrapping_mul(0x9E37_79B9_7F4A_7C15);

@@ -5,16 +5,16 @@
 //! 1. *Dominance*: a candidate that another of its activity beats on every axis and in value is
 //!    dropped.
 //! 2. *Lagrangian bound* (`dual`): prices for the limits, minimised; at these prices every
-//!    candidate has a *loss* against the best of its activity, and a plan is worth the bound less
-//!    its losses less the priced slack.
+//!    candidate has a *reduced cost* against the best of its activity, and a plan is worth the
+//!    bound less its reduced costs less the priced slack.
 //! 3. *A first plan* (`primal`): the best candidates at these prices, repaired and improved.
 //! 4. *Remainders* (`congruence`): where many activities share a ratio of value to cost, plans near
 //!    the bound are worth the same modulo a small number, and the bound falls to the next value
 //!    that can be reached.
-//! 5. *Search by rising loss* (`search`): is there a plan within a given loss of the bound? For a
-//!    small loss few candidates qualify, and the answer takes few nodes. Each "no" lowers the
-//!    proven bound, the first "yes" raises the plan, until both meet. At every node the rest is
-//!    priced anew with several multipliers.
+//! 5. *Search by rising reduced cost* (`search`): is there a plan within a given reduced cost of
+//!    the bound? For a small reduced cost few candidates qualify, and the answer takes few nodes.
+//!    Each "no" lowers the proven bound, the first "yes" raises the plan, until both meet. At every
+//!    node the rest is priced anew with several multipliers.
 //!
 //! It is anytime: a step budget goes in, the best plan so far and a proven bound come out.
 //!
@@ -43,9 +43,11 @@
 //! assert_eq!((plan, planned.cost, planned.optimal), ([0, 2], [4, 5], true));
 //! ```
 
+mod bounds;
 mod congruence;
 mod dive;
 mod dual;
+mod item;
 mod level;
 mod load;
 mod memory;
@@ -54,14 +56,19 @@ mod primal;
 pub mod proofs;
 mod rows;
 mod search;
+#[cfg(feature = "alloc")]
+mod workspace;
 
 use crate::allocation::{Allocator, Answer, MemoryError, Planned, Shortfall, enough};
 use crate::problem::{Candidate, Problem};
 use congruence::Remainders;
+pub use item::Item;
 use load::Aim;
-pub use memory::{Item, Seen, Stage};
+pub use memory::{Seen, Stage};
+#[cfg(feature = "alloc")]
+pub use workspace::Workspace;
 
-/// What a plan is chosen for.
+/// The criterion by which a plan is chosen.
 ///
 /// ```
 /// use cotama_core::allocation::Allocator;
@@ -119,7 +126,8 @@ impl Budget {
     }
 }
 
-/// The complete allocator, in memory from its caller.
+/// The complete allocator, in memory from its caller. With feature `alloc`, a `Workspace` provides
+/// the memory.
 ///
 /// ```
 /// use cotama_core::allocation::{Allocator, Answer};
@@ -154,7 +162,7 @@ enum Ended {
     Stopped(i128),
     /// There is no plan.
     Infeasible,
-    /// None found; none has more value than this.
+    /// No plan was found; no plan has more value than this.
     Unknown(i128),
 }
 
@@ -194,7 +202,7 @@ impl<'m, const A: usize> Exact<'m, A> {
         let mut bound = frame.whole(price.bound).min(frame.most);
         let best = primal::first_plan(&frame, &price, self.items, stages, budget);
         if best.is_none() {
-            // What does not fit is no plan to begin at.
+            // A plan beyond the limits is no start for the search.
             stages.iter_mut().for_each(|stage| stage.best = 0);
         }
         let mut remainders = Remainders::of(&frame, self.items, stages);
@@ -301,7 +309,10 @@ impl<const A: usize> Allocator<A> for Exact<'_, A> {
                 }
             };
             self.write(plan);
+            debug_assert!(problem.totals(plan).is_some(), "each choice is a candidate");
             let (cost, quality) = problem.totals(plan).unwrap_or(([0; A], 0));
+            debug_assert!(problem.within_limits(&cost), "a plan keeps the limits");
+            debug_assert!(quality >= aim.quality_floor, "a plan keeps what is settled already");
             let amount = aim.objective.map(|objective| objective.amount(&cost, quality));
             let first_bound = found.and_then(|planned: Planned<A>| planned.bound);
             let own_bound =
@@ -326,6 +337,10 @@ impl<const A: usize> Allocator<A> for Exact<'_, A> {
                 _ => break,
             }
         }
+        debug_assert!(
+            found.is_some(),
+            "the first objective has a plan, or it is the answer that there is none"
+        );
         Ok(found.map_or(
             Answer::Unknown { bound: 0, steps: self.steps.saturating_sub(budget.left) },
             |planned| {

@@ -2,13 +2,13 @@
 
 use super::dual::Price;
 use super::load::Frame;
-use super::rows::Rows;
+use super::rows::{Rows, difference, sum};
 use super::{Budget, Item, Stage};
 use crate::order::{numbered, sort_by_key};
 
-/// Sets every item's loss at these prices, sorts each activity's items by it (equal ones keep the
-/// canonical order) and looks for a plan near the best items. Returns its value, the plan in
-/// [`Stage::best`].
+/// Sets every item's reduced cost at these prices, sorts each activity's items by it (equal ones
+/// keep the canonical order) and looks for a plan near the best items. Returns its value, the plan
+/// in [`Stage::best`].
 pub(super) fn first_plan<const A: usize>(
     frame: &Frame<A>,
     price: &Price<A>,
@@ -22,12 +22,18 @@ pub(super) fn first_plan<const A: usize>(
         let best =
             own.iter().map(|i| i.reduced(&price.multiplier, frame.fraction)).max().unwrap_or(0);
         for item in own.iter_mut() {
-            item.lose(best.wrapping_sub(item.reduced(&price.multiplier, frame.fraction)));
+            item.set_reduced_cost(difference(
+                best,
+                item.reduced(&price.multiplier, frame.fraction),
+            ));
         }
-        // The canonical order, as a key: items of equal loss come out as dominance sorted them.
+        // The canonical order, as a key: items of equal reduced cost come out as dominance sorted
+        // them.
         sort_by_key(own, |i| {
-            (i.loss(), core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice())
+            (i.reduced_cost(), core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice())
         });
+        let first = own.first().map(Item::reduced_cost);
+        debug_assert_eq!(first, Some(0), "the best item at these prices comes first");
         stage.best = 0;
         slack = slack.minus(&stage.item(items, 0).rows());
     }
@@ -43,6 +49,7 @@ pub(super) fn first_plan<const A: usize>(
     if !slack.none_negative() {
         return None;
     }
+    debug_assert!(is_slack(frame, items, stages, &slack), "the slack is that of the plan");
     while budget.take(stages.len() as u64).is_some() {
         match improve(items, stages, &slack) {
             Some(better) => slack = better,
@@ -51,9 +58,20 @@ pub(super) fn first_plan<const A: usize>(
     }
     let mut value = 0i64;
     for stage in stages.iter() {
-        value = value.wrapping_add(i64::from(stage.item(items, stage.best).value));
+        value = sum(value, i64::from(stage.item(items, stage.best).value));
     }
     Some(value)
+}
+
+/// Whether this is what the plan in [`Stage::best`] leaves of the room.
+fn is_slack<const A: usize>(
+    frame: &Frame<A>,
+    items: &[Item<A>],
+    stages: &[Stage<A>],
+    slack: &Rows<A>,
+) -> bool {
+    let rows = stages.iter().map(|stage| stage.item(items, stage.best).rows());
+    rows.fold(frame.room, |left, taken| left.minus(&taken)) == *slack
 }
 
 /// How far over the room a slack is, each row as parts of 2^20 of its worst.
@@ -72,8 +90,8 @@ fn product(a: i64, b: i64) -> i128 {
     i128::from(a).wrapping_mul(i128::from(b))
 }
 
-/// Makes the one switch that costs the least loss for the violation it removes; `None` when none
-/// removes any.
+/// Makes the one switch that costs the least reduced cost for the violation it removes; `None` when
+/// none removes any.
 fn repair<const A: usize>(
     items: &[Item<A>],
     stages: &mut [Stage<A>],
@@ -89,13 +107,13 @@ fn repair<const A: usize>(
             if removed <= 0 {
                 continue;
             }
-            let loss = item.loss().wrapping_sub(current.loss()).max(0);
+            let reduced_cost = difference(item.reduced_cost(), current.reduced_cost()).max(0);
             let better = best.is_none_or(|(least, most, ..)| {
-                product(loss, most) < product(least, removed)
-                    || (loss == 0 && least == 0 && removed > most)
+                product(reduced_cost, most) < product(least, removed)
+                    || (reduced_cost == 0 && least == 0 && removed > most)
             });
             if better {
-                best = Some((loss, removed, at, index as u16, after));
+                best = Some((reduced_cost, removed, at, index as u16, after));
             }
         }
     }

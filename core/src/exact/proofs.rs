@@ -48,7 +48,7 @@ pub fn the_best_plan_is_found_or_there_is_none() {
             assert!(best(&problem).is_none());
             let Some(lacks) = shortfall else { unreachable!() };
             assert!(lacks.limit() == limits[lacks.axis()]);
-            // Of the second limit, the least of plans within the first.
+            // The least of the second limit over plans within the first.
             let within = |cost: &[u64; 2]| lacks.axis() == 0 || cost[0] <= limits[0];
             let least =
                 plans(&problem).map(|it| it.0).filter(within).map(|it| it[lacks.axis()]).min();

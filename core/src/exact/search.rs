@@ -1,4 +1,4 @@
-//! The search by rising loss, and the neighbourhood of the best plan.
+//! The search by rising reduced cost, and the neighbourhood of the best plan.
 //!
 //! A dive that asks for the bound itself allows the fewest items; each "no" lowers the bound and
 //! allows more. Where activities share the same ratio of value to cost, very many plans lie near
@@ -9,8 +9,9 @@ use super::Budget;
 use super::congruence::Remainders;
 use super::dive::Dive;
 use super::dual::Price;
+use super::item::Item;
 use super::load::Frame;
-use super::memory::{Item, Seen, Stage};
+use super::memory::{Seen, Stage};
 
 /// Steps that the first dive may take before its turn ends; the next ones may take more.
 const FIRST_TURN: u64 = 500;
@@ -40,18 +41,21 @@ pub(super) fn search<const A: usize>(
     dive.remember(FIRST_TURN / 4);
     let (mut width, mut turn, mut round) = (0i64, FIRST_TURN, 0);
     loop {
+        debug_assert!(best.is_none_or(|value| value <= *bound), "no plan is above the bound");
         // A plan worth the bound, or every plan excluded.
         let floor = best.map_or(0, |value| value.saturating_add(1));
         if *bound < floor {
             return (best, true);
         }
         let target = bound.saturating_sub(width).max(floor);
+        debug_assert!(floor <= target && target <= *bound, "a plan may be worth the target");
         dive.aim(target);
         dive.free_all();
         let complete = dive.run(budget, turn);
         if dive.target() > target {
             best = Some(dive.target().wrapping_sub(1));
         }
+        debug_assert!(dive.target() >= target, "a dive only raises its target");
         if complete {
             *bound = dive.target().wrapping_sub(1);
             width = width.saturating_mul(2).saturating_add(1);
@@ -83,7 +87,7 @@ fn neighbours<const A: usize>(
     if budget.take(dive.stages().len() as u64).is_none() {
         return;
     }
-    let (mut home, mut worst) = dive.home();
+    let (mut best, mut worst) = dive.best_point();
     let mut fruitless = 0u64;
     while dive.target() <= bound && budget.left > end && fruitless < turn / FRUITLESS {
         *round = round.wrapping_add(1);
@@ -91,11 +95,11 @@ fn neighbours<const A: usize>(
             return;
         }
         let before = dive.target();
-        dive.free_some(home, worst, FREE, *round);
+        dive.free_some(best, worst, FREE, *round);
         dive.run(budget, NEIGHBOURHOOD);
         if dive.target() > before {
             fruitless = 0;
-            (home, worst) = dive.home();
+            (best, worst) = dive.best_point();
         } else {
             fruitless = fruitless.saturating_add(1);
         }

@@ -55,7 +55,7 @@ impl<T> Latest<T> {
     #[must_use]
     pub fn read(&self, now: Micros) -> Option<(&T, Micros)> {
         let (value, at) = self.last.as_ref()?;
-        // Who is told the time late sees a fresh value.
+        // A reader that learns the time late sees a fresh value.
         Some((value, Micros(now.0.saturating_sub(at.0))))
     }
 

@@ -67,6 +67,6 @@ mod tests;
 
 pub use latest::{Latest, Publication};
 pub use requests::Request;
-pub use response::{Overruns, Unschedulable};
-pub use scheduler::{Executive, Happening, NotRunning, Watchdog, What};
+pub use response::{Overruns, ScheduleError};
+pub use scheduler::{CompleteError, Executive, Happening, Watchdog, What};
 pub use task::{ITERATIONS, Senseless, Task, TaskError, TaskSet};

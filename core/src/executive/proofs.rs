@@ -106,7 +106,7 @@ pub fn the_most_urgent_has_the_processor() {
 /// releases in their grid, deadlines after them.
 #[kani::proof]
 #[kani::unwind(6)]
-pub fn what_is_due_happens_in_order() {
+pub fn due_events_happen_in_order() {
     let (late, jump) = (u64::from(few::<3>()), u64::from(few::<2>()));
     let other = Task { offset: us(few::<2>()), ..task(5, 3, 1, 1) };
     let Ok(mut it) = Executive::new([task(3, 2, 1, 1), other]) else { unreachable!() };
@@ -147,7 +147,7 @@ pub fn response_times_are_those_of_the_critical_instant() {
     let set = TaskSet::new(&tasks);
     kani::assume(set.is_ok());
     let Ok(set) = set else { unreachable!() };
-    // What has to be done, the more urgent task first, one microsecond after the other.
+    // Reference schedule: the more urgent task runs first, one microsecond after the other.
     let (mut urgent, mut left, mut end) = (0, needs, 0);
     for time in 0..deadline {
         if time % period == 0 {
@@ -163,7 +163,7 @@ pub fn response_times_are_those_of_the_critical_instant() {
     let said = set.response_times(Overruns::None).nth(1);
     match said {
         Some(Ok(response)) => assert!(left == 0 && response == us(end)),
-        Some(Err(Unschedulable::Late { task, deadline: of, at_least })) => {
+        Some(Err(ScheduleError::Late { task, deadline: of, at_least })) => {
             assert!(left > 0 && task == 1 && of == us(deadline) && at_least > of);
         }
         _ => unreachable!(),
@@ -201,7 +201,7 @@ pub fn the_most_cost_is_exact() {
 /// A task set that is proven to be in time never misses a deadline, with what every job may need.
 #[kani::proof]
 #[kani::unwind(61)]
-pub fn who_is_proven_in_time_is_in_time() {
+pub fn a_task_proven_in_time_is_in_time() {
     let (period, cost) = (2 + few::<2>(), 1 + few::<2>());
     let (long, needs) = (3 + few::<2>(), 1 + few::<3>());
     let tasks = [task(period, period, cost, 0), task(long, long - few::<1>(), needs, 0)];
@@ -223,7 +223,7 @@ pub fn who_is_proven_in_time_is_in_time() {
 /// and what is active again keeps the grid of its releases.
 #[kani::proof]
 #[kani::unwind(5)]
-pub fn requests_do_what_they_say() {
+pub fn requests_take_effect_as_documented() {
     let Ok(mut it) = Executive::new([task(4, 3, 1, 1)]) else { unreachable!() };
     for _ in 0..few::<2>() {
         let next = Micros(it.now().0 + u64::from(few::<1>()));

@@ -1,25 +1,25 @@
-//! What supervisors ask of the scheduler.
+//! Requests of supervisors to the scheduler.
 
 use super::scheduler::{Executive, Watchdog};
 use super::task::Task;
 use crate::units::Micros;
 
-/// What a supervisor asks of the scheduler about a module (the request and parameter ports of
-/// Durand et al., TAROS 2010, Section II.B).
+/// A request of a supervisor about a module (the request and parameter ports of Durand et al.,
+/// TAROS 2010, Section II.B).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Request {
-    /// It runs again, from the next release of its grid on.
+    /// The module runs again, from the next release of its grid on.
     Activate,
-    /// It runs no more once the job under way is over.
+    /// The module stops once the job under way is over.
     Stop,
-    /// It runs no more, and the job under way publishes nothing.
+    /// The module stops, and the job under way publishes nothing.
     Kill,
-    /// Its temporal constraint is released: its jobs have no deadline and no limit of processor
-    /// time, until it is constrained again. The paper names this as the other answer to a
+    /// The temporal constraint is released: jobs of the module have no deadline and no limit of
+    /// processor time, until it is constrained again. The paper names this as the other answer to a
     /// persistent fault (Section VI.A.1). It is for the least urgent module alone, as whatever is
     /// less urgent waits for it.
     Release,
-    /// Its temporal constraint holds again, from its next job on.
+    /// The temporal constraint holds again, from the next job of the module on.
     Constrain,
     /// A parameter changes what its jobs cost, the one under way among them.
     Cost(Micros),
@@ -60,6 +60,10 @@ impl<const N: usize> Executive<N> {
                 let periods = passed.div_ceil(of.period.0.max(1));
                 let next = periods.checked_mul(of.period.0).map(Micros);
                 module.release = next.and_then(|next| next.checked_add(of.offset));
+                debug_assert!(
+                    module.release.is_none_or(|it| now <= it),
+                    "no release is in the past"
+                );
             }
             Request::Activate => {}
             Request::Stop => module.release = None,
@@ -112,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_stopped_ends_its_job_and_who_is_killed_does_not() {
+    fn a_stopped_module_ends_its_job_and_a_killed_one_does_not() {
         let mut it = executive();
         run(&mut it, 20, [10, 50]);
         assert!(it.request(1, Request::Stop, ms(20)));
@@ -124,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_active_again_keeps_the_grid_of_its_releases() {
+    fn a_module_active_again_keeps_the_grid_of_its_releases() {
         let mut it = executive();
         run(&mut it, 150, [10, 50]);
         assert!(it.request(0, Request::Kill, ms(150)) && it.request(1, Request::Kill, ms(150)));
@@ -135,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_released_from_its_constraint_takes_what_it_needs() {
+    fn a_module_released_from_its_constraint_takes_the_time_it_needs() {
         let mut it = executive();
         assert!(it.request(1, Request::Release, ms(0)));
         let begun = [(0, 0, What::Released), (0, 1, What::Released), (10, 0, What::Done)];
@@ -153,7 +157,7 @@ mod tests {
 
     /// The grid is the offset and every period after it; an instant on it counts.
     #[test]
-    fn who_is_active_again_is_released_on_the_grid_of_its_offset() {
+    fn a_module_active_again_is_released_on_the_grid_of_its_offset() {
         for (now, released) in [(0, 30), (30, 30), (31, 130), (130, 130), (131, 230)] {
             let task = Task { offset: ms(30), ..Task::new(ms(100), ms(10)) };
             let mut it = Executive::new([task]).unwrap();
@@ -165,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_killed_has_missed_nothing_when_it_is_active_again() {
+    fn a_killed_module_has_missed_nothing_when_it_is_active_again() {
         let mut it = executive();
         run(&mut it, 85, [10, 75]);
         assert_eq!(it.misses(1), Some(1));

@@ -21,7 +21,7 @@ use crate::units::Micros;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overruns {
-    /// None: each job is done within its cost.
+    /// No tolerance: each job is done within its cost.
     None,
     /// Any one, but one alone: the worst of all choices.
     One,
@@ -41,26 +41,27 @@ pub enum Overruns {
 /// assert_eq!(late.to_string(), "task 1 can miss its deadline, 20 us: it may take 21 us or more");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unschedulable {
+#[non_exhaustive]
+pub enum ScheduleError {
     /// A job of this task can miss its deadline.
     Late {
         /// The most urgent one that can.
         task: usize,
-        /// Its worst response time is so long at least.
+        /// Lower bound of the worst response time of the task.
         at_least: Micros,
-        /// Its deadline.
+        /// Deadline of the task.
         deadline: Micros,
     },
     /// The limit of iterations was reached: it may be in time or not.
     Unknown {
         /// The most urgent one of which it is not known.
         task: usize,
-        /// Its worst response time is so long at least.
+        /// Lower bound of the worst response time of the task.
         at_least: Micros,
     },
 }
 
-impl core::fmt::Display for Unschedulable {
+impl core::fmt::Display for ScheduleError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Late { task, at_least, deadline } => {
@@ -76,7 +77,7 @@ impl core::fmt::Display for Unschedulable {
     }
 }
 
-impl core::error::Error for Unschedulable {}
+impl core::error::Error for ScheduleError {}
 
 impl TaskSet<'_> {
     /// The worst response time of each task, the most urgent first; or that it can be late.
@@ -94,15 +95,15 @@ impl TaskSet<'_> {
     pub fn response_times(
         &self,
         overruns: Overruns,
-    ) -> impl Iterator<Item = Result<Micros, Unschedulable>> {
+    ) -> impl Iterator<Item = Result<Micros, ScheduleError>> {
         (0..self.tasks().len()).map(move |task| self.worst(task, overruns, None))
     }
 
     /// Whether every job of every task is in time.
     ///
     /// # Errors
-    /// [`Unschedulable`] for the most urgent task that is not known to be.
-    pub fn schedulable(&self, overruns: Overruns) -> Result<(), Unschedulable> {
+    /// [`ScheduleError`] for the most urgent task that is not known to be.
+    pub fn schedulable(&self, overruns: Overruns) -> Result<(), ScheduleError> {
         self.response_times(overruns).try_for_each(|response| response.map(drop))
     }
 
@@ -113,21 +114,22 @@ impl TaskSet<'_> {
     /// to the deadline is halved until one is left.
     ///
     /// # Errors
-    /// [`Unschedulable::Unknown`] when the limit of iterations was reached on the way.
+    /// [`ScheduleError::Unknown`] when the limit of iterations was reached on the way.
     pub fn most_cost(
         &self,
         task: usize,
         overruns: Overruns,
-    ) -> Result<Option<Micros>, Unschedulable> {
+    ) -> Result<Option<Micros>, ScheduleError> {
         let Some(of) = self.tasks().get(task) else { return Ok(None) };
         // Invariant: in time with `good`, zero standing for none; not in time with `bad`.
         let (mut good, mut bad) = (0, of.deadline.0.saturating_add(1));
         while bad.saturating_sub(good) > 1 {
+            debug_assert!(good < bad, "in time with the one, too late with the other");
             let middle = good.midpoint(bad);
             match self.schedulable_at(overruns, (task, Micros(middle))) {
                 Ok(()) => good = middle,
-                Err(Unschedulable::Late { .. }) => bad = middle,
-                Err(unknown @ Unschedulable::Unknown { .. }) => return Err(unknown),
+                Err(ScheduleError::Late { .. }) => bad = middle,
+                Err(unknown @ ScheduleError::Unknown { .. }) => return Err(unknown),
             }
         }
         Ok((good > 0).then_some(Micros(good)))
@@ -138,7 +140,7 @@ impl TaskSet<'_> {
         &self,
         overruns: Overruns,
         changed: (usize, Micros),
-    ) -> Result<(), Unschedulable> {
+    ) -> Result<(), ScheduleError> {
         (0..self.tasks().len())
             .try_for_each(|task| self.worst(task, overruns, Some(changed)).map(drop))
     }
@@ -149,7 +151,7 @@ impl TaskSet<'_> {
         task: usize,
         overruns: Overruns,
         changed: Option<(usize, Micros)>,
-    ) -> Result<Micros, Unschedulable> {
+    ) -> Result<Micros, ScheduleError> {
         let plain = |at: usize, of: &Task| match changed {
             Some((changed, cost)) if changed == at => cost.0,
             _ => of.cost.0,
@@ -181,7 +183,7 @@ impl TaskSet<'_> {
         &self,
         task: usize,
         cost: impl Fn(usize, &Task) -> Option<u64>,
-    ) -> Result<Micros, Unschedulable> {
+    ) -> Result<Micros, ScheduleError> {
         let deadline = self.tasks().get(task).map_or(Micros::ZERO, |of| of.deadline);
         let mut response = Micros::ZERO;
         for _ in 0..self.iterations {
@@ -194,23 +196,25 @@ impl TaskSet<'_> {
             );
             let next = match demand {
                 Some(next) if next <= deadline.0 => Micros(next),
-                // What does not fit is beyond any deadline.
+                // A sum beyond `u64` is beyond any deadline.
                 _ => {
                     let at_least = Micros(demand.unwrap_or(u64::MAX));
-                    return Err(Unschedulable::Late { task, at_least, deadline });
+                    return Err(ScheduleError::Late { task, at_least, deadline });
                 }
             };
+            debug_assert!(next >= response, "a longer window demands no less");
             if next == response {
                 return Ok(response);
             }
             response = next;
         }
-        Err(Unschedulable::Unknown { task, at_least: response })
+        Err(ScheduleError::Unknown { task, at_least: response })
     }
 }
 
 /// How many jobs are released in a window that begins with a release; at least that one.
 fn jobs(window: Micros, period: Micros) -> u64 {
+    debug_assert!(period.0 > 0, "no period of a set is zero");
     let whole = window.0.checked_div(period.0).unwrap_or(u64::MAX); // no period of a set is zero
     let begun = window.0.checked_rem(period.0).is_some_and(|rest| rest > 0);
     whole.saturating_add(u64::from(begun)).max(1)

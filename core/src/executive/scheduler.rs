@@ -4,7 +4,7 @@ use super::latest::Publication;
 use super::task::{Task, TaskError, TaskSet};
 use crate::units::Micros;
 
-/// Where the watchdog of a module is: the places of its net.
+/// State of the watchdog of a module: the places of its net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Watchdog {
     /// No job is under way.
@@ -17,25 +17,25 @@ pub enum Watchdog {
     Fault,
 }
 
-/// What happened to a module.
+/// An event of a module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum What {
     /// A job was released.
     Released,
     /// A release was refused: a job is under way, or the module is in fault.
     Refused,
-    /// Its job has used up its cost and its extra time, and gets the processor no more.
+    /// The job has used up its cost and its extra time, and gets the processor no more.
     Exhausted,
-    /// Its job missed its deadline, and gets extra time.
+    /// The job missed its deadline, and gets extra time.
     DeadlineMissed,
-    /// Its job is done in time.
+    /// The job is done in time.
     Done,
-    /// Its job is done within its extra time.
+    /// The job is done within its extra time.
     DoneLate {
         /// Whether this is a real-time fault, for the supervisor.
         rt_fault: bool,
     },
-    /// Its extra time is over: its job is stopped, and publishes nothing.
+    /// The extra time is over: the job is stopped, and publishes nothing.
     Skipped {
         /// Whether this is a real-time fault, for the supervisor.
         rt_fault: bool,
@@ -44,15 +44,15 @@ pub enum What {
     Acknowledged,
 }
 
-/// What happened to which module, when.
+/// An event of a module, with its time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[must_use = "a fault may have happened"]
 pub struct Happening {
-    /// When.
+    /// Time of the event.
     pub at: Micros,
     /// The place of the module in the set.
     pub task: usize,
-    /// What.
+    /// The event.
     pub what: What,
 }
 
@@ -73,14 +73,15 @@ impl Happening {
 
 /// Why a job cannot be done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NotRunning {
+#[non_exhaustive]
+pub enum CompleteError {
     /// This task does not have the processor; the one that has it, if any.
     Running(Option<usize>),
     /// Something was due before: [`Executive::step`] until this instant first.
     Behind(Micros),
 }
 
-impl core::fmt::Display for NotRunning {
+impl core::fmt::Display for CompleteError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Running(Some(task)) => {
@@ -94,7 +95,7 @@ impl core::fmt::Display for NotRunning {
     }
 }
 
-impl core::error::Error for NotRunning {}
+impl core::error::Error for CompleteError {}
 
 /// The watchdog and the job of one module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,7 +103,7 @@ pub(super) struct Module {
     pub(super) watchdog: Watchdog,
     /// Deadlines missed in a row; at most the patience of the task.
     pub(super) misses: u8,
-    /// Of the job under way.
+    /// Release time of the job under way.
     released: Micros,
     /// Processor time of the job under way; at most the budget of the task, where it is bounded.
     used: Micros,
@@ -173,7 +174,7 @@ impl<const N: usize> Executive<N> {
         &self.tasks
     }
 
-    /// Where the watchdog of a module is; `None` of a task that is not there.
+    /// Returns the state of the watchdog of a module; `None` of a task that does not exist.
     pub fn watchdog(&self, task: usize) -> Option<Watchdog> {
         self.modules.get(task).map(|module| module.watchdog)
     }
@@ -200,8 +201,8 @@ impl<const N: usize> Executive<N> {
         self.due().map(|(at, ..)| at)
     }
 
-    /// What happened next, if that was at `now` or before; `None` when all has, and the time is
-    /// `now`. A time before the last one counts as the last one.
+    /// Returns the next event, if it was at `now` or before; `None` when no event is left, and the
+    /// time is `now`. A time before the last one counts as the last one.
     pub fn step(&mut self, now: Micros) -> Option<Happening> {
         match self.due() {
             Some((at, task, due)) if at <= now => {
@@ -219,22 +220,22 @@ impl<const N: usize> Executive<N> {
     /// now, is met.
     ///
     /// # Errors
-    /// [`NotRunning`] when the task does not have the processor, or the executive was not told the
-    /// time so far.
-    pub fn complete(&mut self, task: usize, now: Micros) -> Result<Happening, NotRunning> {
+    /// [`CompleteError`] when the task does not have the processor, or the executive was not told
+    /// the time so far.
+    pub fn complete(&mut self, task: usize, now: Micros) -> Result<Happening, CompleteError> {
         if let Some((due, ..)) = self.due()
             && due < now
         {
-            return Err(NotRunning::Behind(due));
+            return Err(CompleteError::Behind(due));
         }
         let running = self.running();
         if running != Some(task) {
-            return Err(NotRunning::Running(running));
+            return Err(CompleteError::Running(running));
         }
         self.pass(now);
         let at = self.now;
         let (Some(of), Some(module)) = (self.tasks.get(task), self.modules.get_mut(task)) else {
-            return Err(NotRunning::Running(running));
+            return Err(CompleteError::Running(running));
         };
         let what = if module.watchdog == Watchdog::Run {
             *module = Module { watchdog: Watchdog::Idle, misses: 0, ..*module };
@@ -278,7 +279,8 @@ impl<const N: usize> Executive<N> {
         (0..N).zip(&self.tasks).zip(&self.modules).map(|((at, task), module)| (at, task, module))
     }
 
-    /// What is due next: the earliest, of these the first kind, of these the most urgent task.
+    /// Returns the next due event: the earliest, of these the first kind, of these the most urgent
+    /// task.
     fn due(&self) -> Option<(Micros, usize, Due)> {
         let running = self.running();
         let mut first: Option<(Micros, usize, Due)> = None;
@@ -292,6 +294,7 @@ impl<const N: usize> Executive<N> {
                 .then(|| module.released.checked_add(task.deadline))
                 .flatten();
             // Fits, in a task that makes sense.
+            debug_assert!(!task.is_senseless(), "the task of a set makes sense");
             let end = Micros(task.deadline.0.saturating_add(task.extra.0));
             let extra = (module.watchdog == Watchdog::Extra)
                 .then(|| module.released.checked_add(end))
@@ -310,20 +313,22 @@ impl<const N: usize> Executive<N> {
                 }
             }
         }
-        // What was due before it was told: an acknowledgement or an end came later.
+        // An event due in the past happens now: an acknowledgement or an end was reported late.
         first.map(|(when, at, kind)| (when.max(self.now), at, kind))
     }
 
     /// Lets what is due happen now.
     fn happen(&mut self, task: usize, due: Due) -> Happening {
         let now = self.now;
+        debug_assert!(task < N, "a task of this executive is due");
         let mut what = What::Exhausted;
         if let (Some(of), Some(module)) = (self.tasks.get(task), self.modules.get_mut(task)) {
             what = match due {
                 Due::Exhausted => What::Exhausted,
                 Due::Deadline => {
                     module.watchdog = Watchdog::Extra;
-                    // It is below the patience outside `Fault`.
+                    debug_assert!(module.misses < of.patience, "one more miss is no fault yet");
+                    // The count is below the patience outside `Fault`.
                     module.misses = module.misses.saturating_add(1).min(of.patience);
                     What::DeadlineMissed
                 }
@@ -331,6 +336,7 @@ impl<const N: usize> Executive<N> {
                 Due::Release => {
                     module.release = module.release.and_then(|at| at.checked_add(of.period));
                     if module.watchdog == Watchdog::Idle {
+                        debug_assert!(module.misses < of.patience, "an idle module has no fault");
                         *module = Module {
                             watchdog: Watchdog::Run,
                             released: now,
@@ -351,9 +357,11 @@ impl<const N: usize> Executive<N> {
     /// Lets time pass, during which nothing is due: the job that has the processor uses it.
     pub(super) fn pass(&mut self, now: Micros) {
         let passed = now.0.saturating_sub(self.now.0);
+        debug_assert!(self.wake_at().is_none_or(|due| now <= due), "nothing due is passed over");
         let running = self.running().and_then(|task| self.modules.get_mut(task));
         if let Some(module) = running {
             // No more than is left of the budget.
+            debug_assert!(module.used.0.checked_add(passed).is_some(), "it fits its budget");
             module.used = Micros(module.used.0.saturating_add(passed));
         }
         self.now = self.now.max(now);
@@ -371,13 +379,14 @@ impl Module {
 
     /// Ends a late job; whether that is a fault.
     const fn end(&mut self, task: &Task) -> bool {
+        debug_assert!(self.is_at_work(), "a job ends that has begun");
         let rt_fault = self.misses >= task.patience;
         self.watchdog = if rt_fault { Watchdog::Fault } else { Watchdog::Idle };
         rt_fault
     }
 }
 
-/// What can be due, in the order in which it happens at one instant.
+/// Kinds of due events, in the order in which they happen at one instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Due {
     Exhausted,

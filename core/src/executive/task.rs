@@ -89,14 +89,15 @@ impl Task {
 
 /// Why a task makes no sense.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Senseless {
-    /// Its period is zero.
+    /// The period is zero.
     NoPeriod,
-    /// Its cost is zero.
+    /// The cost is zero.
     NoCost,
     /// No number of misses would not be a fault.
     NoPatience,
-    /// Its deadline comes after its next release.
+    /// The deadline comes after the next release.
     DeadlineAfterPeriod {
         /// The deadline.
         deadline: Micros,
@@ -118,9 +119,9 @@ pub enum Senseless {
 /// A task that makes no sense, and why.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TaskError {
-    /// Its place in the set.
+    /// Position of the task in the set.
     pub task: usize,
-    /// Why.
+    /// The reason.
     pub why: Senseless,
 }
 

@@ -13,7 +13,7 @@ fn beats(one: ([u64; 2], u64), other: ([u64; 2], u64)) -> bool {
 /// totals that no plan beats.
 #[kani::proof]
 #[kani::unwind(8)]
-pub fn the_front_is_what_nothing_beats() {
+pub fn the_front_has_the_points_that_nothing_beats() {
     let bit = || u32::from(few::<1>());
     let c = |energy: u32| Candidate { cost: [2 * bit() + bit(), energy], quality: bit(), id: 0 };
     let (a, b) = ([c(bit()), c(1)], [c(2 * bit()), c(1)]);

@@ -41,7 +41,7 @@ pub fn covering_is_comparing_all_kinds() {
     kani::cover!(!have.covers(need), "not enough");
 }
 
-/// What two options need together is covered exactly by what covers both.
+/// A set covers the union of two options exactly when it covers both of them.
 #[kani::proof]
 #[kani::unwind(17)]
 pub fn a_union_is_the_least_that_covers_both() {

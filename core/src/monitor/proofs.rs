@@ -42,7 +42,7 @@ pub fn margins_are_exact() {
     kani::cover!(too_much, "refused");
 }
 
-/// What is spent adds up, or is refused beyond the largest amount, and then nothing is spent.
+/// Amounts spent add up, or are refused beyond the largest amount, and then nothing is spent.
 #[kani::proof]
 #[kani::unwind(3)]
 pub fn spending_adds_up_or_changes_nothing() {
@@ -58,10 +58,10 @@ pub fn spending_adds_up_or_changes_nothing() {
     kani::cover!(!fits && more <= MAX_AMOUNT - before, "refused for the other axis");
 }
 
-/// What is left is never below zero, and a plan upwards gets that less the reserve.
+/// The rest of a limit is never below zero, and a plan upwards gets that less the reserve.
 #[kani::proof]
 #[kani::unwind(3)]
-pub fn a_plan_gets_what_is_left() {
+pub fn a_plan_gets_the_rest_of_each_limit() {
     let (limits, used, reserve) = (small(), small(), small());
     let upward = Upward { growth: [1, 1], reserve };
     let monitor = monitor(limits, used, [0, 1]).with_upward(upward);

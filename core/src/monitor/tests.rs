@@ -45,10 +45,10 @@ fn an_exactly_used_limit_is_kept() {
 fn overflow_is_refused_and_changes_nothing() {
     let mut monitor = Monitor::new([MAX_AMOUNT], [0]).unwrap();
     monitor.spend(&[MAX_AMOUNT]).unwrap();
-    assert_eq!(monitor.spend(&[1]), Err(AmountOverflow { axis: 0 }));
+    assert_eq!(monitor.spend(&[1]), Err(AmountError { axis: 0 }));
     assert_eq!(monitor.used(), [MAX_AMOUNT]);
-    assert_eq!(monitor.margins(&[u64::MAX]), Err(AmountOverflow { axis: 0 }));
-    let too_large = MonitorError::Limit(AmountOverflow { axis: 0 });
+    assert_eq!(monitor.margins(&[u64::MAX]), Err(AmountError { axis: 0 }));
+    let too_large = MonitorError::Limit(AmountError { axis: 0 });
     assert_eq!(Monitor::new([u64::MAX], [0]), Err(too_large));
 }
 
@@ -116,7 +116,7 @@ fn a_passed_limit_leaves_nothing_and_a_failed_sum_leaves_all_axes() {
     let mut monitor = Monitor::new([10, MAX_AMOUNT], [0, 1]).unwrap();
     monitor.spend(&[14, MAX_AMOUNT]).unwrap();
     assert_eq!((monitor.left(), monitor.room()), ([0, 0], [0, 0]));
-    assert_eq!(monitor.spend(&[1, 1]), Err(AmountOverflow { axis: 1 }));
+    assert_eq!(monitor.spend(&[1, 1]), Err(AmountError { axis: 1 }));
     assert_eq!(monitor.used(), [14, MAX_AMOUNT]);
 }
 
@@ -138,7 +138,8 @@ proptest! {
     /// and leave the reserve of every axis.
     #[test]
     fn upward_requests_cannot_flap_on_three_axes(
-        steps in prop::collection::vec((0usize..3, [0u64..20, 0u64..20, 0u64..20], 0u64..200), 1..200)
+        steps in
+            prop::collection::vec((0usize..3, [0u64..20, 0u64..20, 0u64..20], 0u64..200), 1..200)
     ) {
         let upward = Upward { growth: [25, 40, 0], reserve: [10, 0, 30] };
         let mut monitor = Monitor::new([2_000; 3], [2, 0, 1]).unwrap().with_upward(upward);

@@ -49,36 +49,36 @@ pub struct TransitionId(pub u32);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Net<'n> {
-    /// Its name.
+    /// Name of the net.
     pub name: &'n str,
-    /// What it is for.
+    /// Purpose of the net.
     pub doc: &'n str,
-    /// Where tokens lie.
+    /// The places, which hold tokens.
     pub places: &'n [Place<'n>],
-    /// What it reacts to, from outside or from other nets of a system.
+    /// The events accepted, from outside or from other nets of a system.
     pub events: &'n [Signal<'n>],
-    /// What it says to the outside or to other nets.
+    /// The outputs emitted, to the outside or to other nets.
     pub outputs: &'n [Signal<'n>],
     /// How tokens move. Of transitions of the same priority the earlier one goes first.
     pub transitions: &'n [Transition<'n>],
     /// Events that a place leaves unanswered on purpose.
     pub ignored: &'n [Ignored<'n>],
-    /// What is claimed of it.
+    /// The properties claimed of the net.
     pub laws: &'n [Law<'n>],
 }
 
-/// Where tokens lie.
+/// A place, which holds tokens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place<'n> {
-    /// Its name, unique among the places of the net.
+    /// Name, unique among the places of the net.
     pub name: &'n str,
-    /// What a token in it means.
+    /// Meaning of a token in the place.
     pub doc: &'n str,
     /// Tokens at the start.
     pub initial: u32,
     /// The most tokens it is claimed to hold; [`Place::UNBOUNDED`] without a claim.
     pub bound: u32,
-    /// What it stands for.
+    /// Role of the place.
     pub role: Role,
 }
 
@@ -87,7 +87,7 @@ impl Place<'_> {
     pub const UNBOUNDED: u32 = u32::MAX;
 }
 
-/// What a place stands for. The token game does not depend on it.
+/// The role of a place. The token game does not depend on it.
 ///
 /// ```
 /// use cotama_core::{net, net::Role};
@@ -113,8 +113,8 @@ pub enum Role {
     State,
     /// Data that guards read: a boolean, or a counter up to the bound of the place.
     Data,
-    /// What a [`Role::Data`] or [`Role::Shared`] place lacks to its bound: the two sum to the
-    /// bound.
+    /// The free room of a [`Role::Data`] or [`Role::Shared`] place up to its bound: the two sum to
+    /// the bound.
     Complement(PlaceId),
     /// A condition that another net of a system owns.
     Shared,
@@ -125,18 +125,18 @@ pub enum Role {
 /// The name of an event or an output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Signal<'n> {
-    /// Its name, unique among the events, or the outputs, of the net.
+    /// Name, unique among the events, or the outputs, of the net.
     pub name: &'n str,
-    /// What it tells.
+    /// Meaning of the signal.
     pub doc: &'n str,
 }
 
 /// How tokens move: enabled when every place of `take` and `read` holds at least the weight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Transition<'n> {
-    /// Its name, unique among the transitions of the net.
+    /// Name, unique among the transitions of the net.
     pub name: &'n str,
-    /// What it is for.
+    /// Purpose of the transition.
     pub doc: &'n str,
     /// Which line of the definition it comes from; one line can stand for several transitions (from
     /// any place of a group, for either value of a flag).
@@ -149,12 +149,12 @@ pub struct Transition<'n> {
     pub read: &'n [Arc],
     /// Tokens that it adds. No place occurs twice.
     pub give: &'n [Arc],
-    /// What it says, in this order.
+    /// The outputs emitted, in this order.
     pub emits: &'n [OutputId],
     /// When it may fire, counted from the moment it became enabled. Without it: at any time when it
     /// needs an event, at once when it does not.
     pub within: Option<Within>,
-    /// Of several enabled transitions the one of the highest priority fires.
+    /// Priority: among enabled transitions the one with the highest fires.
     pub priority: i16,
 }
 
@@ -178,7 +178,7 @@ pub struct Arc {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Within {
-    /// Not before.
+    /// Least age at firing, in milliseconds since the transition became enabled.
     pub earliest: u32,
     /// Not after; `None`: no limit.
     pub latest: Option<u32>,

@@ -1,4 +1,4 @@
-//! What a definition alone shows to be wrong, whatever its names mean.
+//! Checks of a definition that need no meaning of its names.
 
 use super::data::Signal;
 use super::lookup::{Found, Meant};

@@ -3,20 +3,20 @@
 use super::data::{Arc, Law, Net, PlaceId, Role, Within};
 use core::fmt;
 
-/// What is wrong with the lists of a [`Net`].
+/// A defect in the lists of a [`Net`].
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-/// use cotama_core::net::{Defect, PlaceId};
+/// use cotama_core::net::{NetError, PlaceId};
 ///
 /// let mut net = OwnedNet::new("lamp", "");
 /// net.place(OwnedPlace::new("off", 1)).unwrap();
 /// net.transition(OwnedTransition::new("press").take(PlaceId(0), 1).give(PlaceId(7), 1)).unwrap();
-/// assert_eq!(net.view().net().defect(), Some(Defect::UnknownId { transition: 0 }));
+/// assert_eq!(net.view().net().defect(), Some(NetError::UnknownId { transition: 0 }));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Defect {
+pub enum NetError {
     /// A list is longer than ids can count.
     TooLong,
     /// A transition names a place, event or output that the net does not have.
@@ -51,7 +51,7 @@ pub enum Defect {
     },
 }
 
-impl fmt::Display for Defect {
+impl fmt::Display for NetError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::TooLong => write!(f, "a list has more entries than ids can count"),
@@ -89,15 +89,15 @@ impl fmt::Display for Defect {
     }
 }
 
-impl core::error::Error for Defect {}
+impl core::error::Error for NetError {}
 
 impl Net<'_> {
-    /// What is wrong with its lists, if anything.
-    pub fn defect(&self) -> Option<Defect> {
+    /// Returns the first defect of the lists, or `None`.
+    pub fn defect(&self) -> Option<NetError> {
         let lists =
             [self.places.len(), self.events.len(), self.outputs.len(), self.transitions.len()];
         if lists.iter().any(|&length| u32::try_from(length).is_err()) {
-            return Some(Defect::TooLong);
+            return Some(NetError::TooLong);
         }
         self.place_defect()
             .or_else(|| self.transition_defect())
@@ -105,8 +105,8 @@ impl Net<'_> {
             .or_else(|| self.name_defect())
     }
 
-    fn name_defect(&self) -> Option<Defect> {
-        let twice = |list, at: Option<usize>| at.map(|at| Defect::Twice { list, at });
+    fn name_defect(&self) -> Option<NetError> {
+        let twice = |list, at: Option<usize>| at.map(|at| NetError::Twice { list, at });
         let names = |signals: &[super::Signal<'_>]| again(signals.len(), |at| signals[at].name);
         twice("places", again(self.places.len(), |at| self.places[at].name))
             .or_else(|| twice("events", names(self.events)))
@@ -117,7 +117,7 @@ impl Net<'_> {
         (place.0 as usize) < self.places.len()
     }
 
-    fn place_defect(&self) -> Option<Defect> {
+    fn place_defect(&self) -> Option<NetError> {
         let bad = |place: &super::Place<'_>| {
             let complements = |of: PlaceId| {
                 let of = self.places.get(of.0 as usize);
@@ -129,10 +129,10 @@ impl Net<'_> {
             place.initial > place.bound
                 || matches!(place.role, Role::Complement(of) if !complements(of))
         };
-        self.places.iter().position(bad).map(|place| Defect::Place { place })
+        self.places.iter().position(bad).map(|place| NetError::Place { place })
     }
 
-    fn transition_defect(&self) -> Option<Defect> {
+    fn transition_defect(&self) -> Option<NetError> {
         self.transitions.iter().enumerate().find_map(|(transition, it)| {
             let needs = || it.take.iter().chain(it.read);
             let known = needs().chain(it.give).all(|arc| self.has(arc.place))
@@ -141,15 +141,15 @@ impl Net<'_> {
             let sound = once([it.take, it.read]) && once([it.give, &[]]);
             let timed = it.within.is_none_or(Within::is_sound);
             match (known, sound, timed) {
-                (false, ..) => Some(Defect::UnknownId { transition }),
-                (_, false, _) => Some(Defect::Arcs { transition }),
-                (_, _, false) => Some(Defect::Interval { transition }),
+                (false, ..) => Some(NetError::UnknownId { transition }),
+                (_, false, _) => Some(NetError::Arcs { transition }),
+                (_, _, false) => Some(NetError::Interval { transition }),
                 _ => None,
             }
         })
     }
 
-    fn law_defect(&self) -> Option<Defect> {
+    fn law_defect(&self) -> Option<NetError> {
         let ignored = |it: &super::Ignored<'_>| {
             (it.event.0 as usize) < self.events.len()
                 && self.has(it.place)
@@ -165,7 +165,7 @@ impl Net<'_> {
             Law::DeadlockFree { end } => end.is_none_or(|end| self.has(end)),
             Law::HandlesAll | Law::Settles | Law::Deterministic => true,
         };
-        (!self.ignored.iter().all(ignored) || !self.laws.iter().all(law)).then_some(Defect::Law)
+        (!self.ignored.iter().all(ignored) || !self.laws.iter().all(law)).then_some(NetError::Law)
     }
 }
 

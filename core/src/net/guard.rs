@@ -7,7 +7,7 @@ use super::text::Text;
 use super::variant::Variant;
 
 impl Ignore<'_> {
-    /// It as a line that has nothing but its event and its guard.
+    /// Returns the same as a transition line with only event and guard.
     const fn as_line(&self) -> Line<'_> {
         Line {
             name: "",
@@ -59,7 +59,7 @@ impl Source<'_> {
         }
     }
 
-    /// What a line of `ignore` asks: a token in the place, and what its guard says.
+    /// Returns the condition of a line of `ignore`: a token in the place, and its guard.
     #[track_caller]
     pub(super) const fn ignoring(&self, it: &Ignore<'_>, place: PlaceId) -> Variant {
         let line = it.as_line();
@@ -88,8 +88,8 @@ impl Variant {
         self.len() - self.asks(0).is_none() as usize
     }
 
-    /// What a line of `ignore` asks of the place touched here, if it asks more than that the place
-    /// of the line, the first one, is marked.
+    /// Returns the condition of a line of `ignore` on the place touched here, if it asks for more
+    /// than a token in the place of the line, the first one.
     pub(super) const fn asks(&self, at: usize) -> Option<Arc> {
         let (place, _, tokens, _) = self.arcs(at);
         let implied = at == 0 && tokens == 1;

@@ -4,7 +4,7 @@ use super::data::{EventId, PlaceId, Signal};
 use super::source::{Declared, Line, Source};
 use super::text::{Text, same};
 
-/// Where a name was found.
+/// The kind and position of a found name.
 #[derive(Clone, Copy)]
 pub(super) enum Found {
     /// A place.
@@ -17,7 +17,7 @@ pub(super) enum Found {
     Nothing,
 }
 
-/// What a name should be.
+/// The kind that a name is expected to have.
 #[derive(Clone, Copy)]
 pub(super) enum Meant {
     /// A place.
@@ -28,7 +28,7 @@ pub(super) enum Meant {
     Data,
     /// Any of these but a group.
     Any,
-    /// Any of these.
+    /// A place, a group, a flag, a counter or a shared place.
     AnyOrGroup,
 }
 

@@ -294,7 +294,7 @@ impl<
         as_str(self.text.split_at(span.start).1.split_at(span.length).0)
     }
 
-    /// Its places.
+    /// Returns the places of the net.
     pub const fn places(&self) -> [Place<'_>; PLACES] {
         let mut places =
             [Place { name: "", doc: "", initial: 0, bound: 0, role: Role::State }; PLACES];
@@ -329,7 +329,7 @@ impl<
         places
     }
 
-    /// Its transitions.
+    /// Returns the transitions of the net.
     pub const fn transitions(&self) -> [Transition<'_>; TRANSITIONS] {
         let empty = Transition {
             name: "",
@@ -364,7 +364,7 @@ impl<
         transitions
     }
 
-    /// What it ignores on purpose.
+    /// Returns the pairs ignored on purpose.
     pub const fn ignored(&self) -> [Ignored<'_>; IGNORED] {
         let mut ignored = [Ignored { event: EventId(0), place: PlaceId(0), guard: &[] }; IGNORED];
         let mut at = 0;
@@ -376,7 +376,7 @@ impl<
         ignored
     }
 
-    /// Its laws.
+    /// Returns the laws of the net.
     #[track_caller]
     pub const fn laws(&self) -> [Law<'_>; LAWS] {
         let text = Text::new().with("net ").name(self.source.name).with(", laws: ");
@@ -429,7 +429,7 @@ pub const fn lines<const N: usize>(net: &super::Net<'_>) -> [u16; N] {
     lines
 }
 
-/// What belongs to each transition, given what belongs to each line.
+/// Copies the value of each line to its transitions.
 #[track_caller]
 pub const fn by_line<T: Copy, const N: usize>(of: &[T], lines: &[u16; N]) -> [T; N] {
     let mut all = match (of, of.first_chunk::<N>()) {

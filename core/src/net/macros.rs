@@ -242,8 +242,8 @@ macro_rules! net {
                 &[$crate::system::Component::alone(&NET)];
             const SYSTEM: $crate::system::System<'static> =
                 $crate::system::System::alone(ALONE);
-            const CODE_SIZE: net_code::Size = net_code::size_of(&SYSTEM);
-            const ARRAYS: &net_code::Arrays<
+            const CODE_SIZE: net_code::Size = $crate::player::pack::size_of(&SYSTEM);
+            const ARRAYS: &$crate::player::Arrays<
                 { CODE_SIZE.words },
                 { CODE_SIZE.entries },
                 { CODE_SIZE.takes },
@@ -260,7 +260,7 @@ macro_rules! net {
                 { CODE_SIZE.ignored_where },
                 { CODE_SIZE.kept },
                 { CODE_SIZE.summands },
-            > = &net_code::Arrays::of(&SYSTEM);
+            > = &$crate::player::Arrays::of(&SYSTEM);
 
             /// How the net was checked.
             pub const KNOWN: $crate::net::Known =
@@ -300,7 +300,7 @@ macro_rules! net {
                 $( $(#[doc = $place_doc])* $place, )*
             }
 
-            /// What the net reacts to.
+            /// The events that the net accepts.
             #[allow(missing_docs, non_camel_case_types, dead_code)]
             #[derive(Clone, Copy, Debug, PartialEq)]
             pub enum Event {
@@ -322,7 +322,7 @@ macro_rules! net {
                 }
             }
 
-            /// What the net says.
+            /// The outputs that the net emits.
             #[allow(missing_docs, non_camel_case_types, dead_code)]
             #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
             pub enum Output {
@@ -344,6 +344,15 @@ macro_rules! net {
                 Event { $( $( $event )* )? }
                 Output { $( $( $output )* )? }
                 Transition { $( $line )* }
+            }
+
+            impl $crate::player::EventNames for Transition {
+                fn event(
+                    event: $crate::system::Of<$crate::net::EventId>,
+                    f: &mut ::core::fmt::Formatter<'_>,
+                ) -> ::core::fmt::Result {
+                    <Self as $crate::player::EventNames>::event_of(&SYSTEM, event, f)
+                }
             }
 
             /// The net as a player plays it; no bytes.
@@ -443,5 +452,10 @@ macro_rules! net {
             { $(@ $export)? $(#[doc = $doc])* $vis mod $name }
             $base $(:: $base_in)* { $($more)* }
         }
+    };
+    // A definition that cannot be read: the cure, and the compiler's own words at the token.
+    ($(@ macro_export)? $(#[doc = $doc:expr])* $vis:vis mod $name:ident { $($body:tt)* }) => {
+        $crate::__net_mistake! { $name $($body)* }
+        $crate::net! { @unread $(#[doc = $doc])* $vis mod $name { $($body)* } }
     };
 }

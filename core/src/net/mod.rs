@@ -29,6 +29,7 @@ mod lookup;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 pub(crate) mod lower;
 mod macros;
+mod mistakes;
 #[cfg(feature = "alloc")]
 pub mod owned;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
@@ -44,7 +45,7 @@ pub use data::{
     Arc, EventId, Ignored, Law, Net, OutputId, Place, PlaceId, Role, Signal, Transition,
     TransitionId, Within,
 };
-pub use defect::Defect;
+pub use defect::NetError;
 pub use laws::{
     CLOCKS, Culprit, Graph, Known, Limit, MARKINGS, Step, Violation, Way, check, judge,
 };

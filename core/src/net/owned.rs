@@ -3,7 +3,7 @@
 use super::data::{
     Arc, EventId, Ignored, Law, Net, OutputId, Place, PlaceId, Role, Signal, Transition, Within,
 };
-use super::defect::Defect;
+use super::defect::NetError;
 use alloc::borrow::ToOwned;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -24,36 +24,36 @@ use alloc::vec::Vec;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct OwnedNet {
-    /// Its name.
+    /// Name of the net.
     pub name: String,
-    /// What it is for.
+    /// Purpose of the net.
     pub doc: String,
-    /// Where tokens lie.
+    /// The places, which hold tokens.
     pub places: Vec<OwnedPlace>,
-    /// What it reacts to.
+    /// The events accepted.
     pub events: Vec<OwnedSignal>,
-    /// What it says.
+    /// The outputs emitted.
     pub outputs: Vec<OwnedSignal>,
     /// How tokens move.
     pub transitions: Vec<OwnedTransition>,
     /// Events that a place leaves unanswered on purpose.
     pub ignored: Vec<OwnedIgnored>,
-    /// What is claimed of it.
+    /// The properties claimed of the net.
     pub laws: Vec<OwnedLaw>,
 }
 
 /// A [`Place`] that owns its texts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OwnedPlace {
-    /// Its name.
+    /// Name of the place.
     pub name: String,
-    /// What a token in it means.
+    /// Meaning of a token in the place.
     pub doc: String,
     /// Tokens at the start.
     pub initial: u32,
     /// The most tokens it is claimed to hold.
     pub bound: u32,
-    /// What it stands for.
+    /// Role of the place.
     pub role: Role,
 }
 
@@ -85,9 +85,9 @@ impl OwnedPlace {
 /// A [`Signal`] that owns its texts.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct OwnedSignal {
-    /// Its name.
+    /// Name of the signal.
     pub name: String,
-    /// What it tells.
+    /// Meaning of the signal.
     pub doc: String,
 }
 
@@ -105,9 +105,9 @@ pub struct OwnedSignal {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct OwnedTransition {
-    /// Its name.
+    /// Name of the transition.
     pub name: String,
-    /// What it is for.
+    /// Purpose of the transition.
     pub doc: String,
     /// Which line of the definition it comes from; [`OwnedNet::transition`] sets it to the
     /// position.
@@ -120,11 +120,11 @@ pub struct OwnedTransition {
     pub read: Vec<Arc>,
     /// Tokens that it adds.
     pub give: Vec<Arc>,
-    /// What it says.
+    /// The outputs emitted, in this order.
     pub emits: Vec<OutputId>,
     /// When it may fire.
     pub within: Option<Within>,
-    /// Of several enabled transitions the one of the highest priority fires.
+    /// Priority: among enabled transitions the one with the highest fires.
     pub priority: i16,
 }
 
@@ -209,7 +209,7 @@ impl OwnedIgnored {
         self
     }
 
-    /// It, to be read.
+    /// Borrows the pair.
     pub fn view(&self) -> Ignored<'_> {
         Ignored { event: self.event, place: self.place, guard: &self.guard }
     }
@@ -243,7 +243,7 @@ pub enum OwnedLaw {
     Settles,
     /// Some transition is enabled, except where `end` is marked.
     DeadlockFree {
-        /// Where to stop is meant.
+        /// The place in which to stop is meant.
         end: Option<PlaceId>,
     },
     /// Priorities and the order of lines decide nothing.
@@ -271,16 +271,16 @@ impl OwnedNet {
     /// Adds a place.
     ///
     /// # Errors
-    /// [`Defect::TooLong`] when ids cannot count it.
-    pub fn place(&mut self, place: OwnedPlace) -> Result<PlaceId, Defect> {
+    /// [`NetError::TooLong`] when ids cannot count it.
+    pub fn place(&mut self, place: OwnedPlace) -> Result<PlaceId, NetError> {
         push(&mut self.places, place).map(PlaceId)
     }
 
     /// Adds an event that it reacts to.
     ///
     /// # Errors
-    /// [`Defect::TooLong`] when ids cannot count it.
-    pub fn event(&mut self, name: &str, doc: &str) -> Result<EventId, Defect> {
+    /// [`NetError::TooLong`] when ids cannot count it.
+    pub fn event(&mut self, name: &str, doc: &str) -> Result<EventId, NetError> {
         push(&mut self.events, OwnedSignal { name: name.to_owned(), doc: doc.to_owned() })
             .map(EventId)
     }
@@ -288,8 +288,8 @@ impl OwnedNet {
     /// Adds a signal that it emits.
     ///
     /// # Errors
-    /// [`Defect::TooLong`] when ids cannot count it.
-    pub fn output(&mut self, name: &str, doc: &str) -> Result<OutputId, Defect> {
+    /// [`NetError::TooLong`] when ids cannot count it.
+    pub fn output(&mut self, name: &str, doc: &str) -> Result<OutputId, NetError> {
         push(&mut self.outputs, OwnedSignal { name: name.to_owned(), doc: doc.to_owned() })
             .map(OutputId)
     }
@@ -297,16 +297,16 @@ impl OwnedNet {
     /// Adds a transition, a line of its own.
     ///
     /// # Errors
-    /// [`Defect::TooLong`] when ids cannot count it.
+    /// [`NetError::TooLong`] when ids cannot count it.
     pub fn transition(
         &mut self,
         transition: OwnedTransition,
-    ) -> Result<super::TransitionId, Defect> {
-        let line = u32::try_from(self.transitions.len()).map_err(|_| Defect::TooLong)?;
+    ) -> Result<super::TransitionId, NetError> {
+        let line = u32::try_from(self.transitions.len()).map_err(|_| NetError::TooLong)?;
         push(&mut self.transitions, OwnedTransition { line, ..transition }).map(super::TransitionId)
     }
 
-    /// Its lists, to be read as a [`Net`].
+    /// Borrows the lists as a [`Net`].
     pub fn view(&self) -> View<'_> {
         View {
             net: self,
@@ -320,8 +320,8 @@ impl OwnedNet {
     }
 }
 
-fn push<T>(list: &mut Vec<T>, item: T) -> Result<u32, Defect> {
-    let id = u32::try_from(list.len()).ok().filter(|&id| id < u32::MAX).ok_or(Defect::TooLong)?;
+fn push<T>(list: &mut Vec<T>, item: T) -> Result<u32, NetError> {
+    let id = u32::try_from(list.len()).ok().filter(|&id| id < u32::MAX).ok_or(NetError::TooLong)?;
     list.push(item);
     Ok(id)
 }

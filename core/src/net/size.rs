@@ -136,7 +136,8 @@ impl Source<'_> {
     }
 }
 
-/// What the name of a complement adds to that of its flag (before it) or counter (after it).
+/// Returns the affix that makes the name of a complement from that of its flag (before it) or
+/// counter (after it).
 pub(super) const fn complement_affix(source: &Source<'_>, at: usize) -> &'static str {
     if source.declared(at).bound == 1 { "not_" } else { "_left" }
 }

@@ -1,4 +1,4 @@
-//! What `net!` read, before names are looked up: the left end of the walk from text to
+//! The source that `net!` read, before names are looked up: the start of the path from text to
 //! [`Net`](super::Net).
 
 use super::data::Signal;
@@ -9,7 +9,7 @@ use super::text::{Text, same};
 pub struct Source<'n> {
     /// The name of the module.
     pub name: &'n str,
-    /// Its documentation.
+    /// Documentation of the net.
     pub doc: &'n str,
     /// `places`.
     pub places: &'n [Declared<'n>],
@@ -36,9 +36,9 @@ pub struct Source<'n> {
 /// A place, a flag, a counter or a shared place.
 #[derive(Clone, Copy, Debug)]
 pub struct Declared<'n> {
-    /// Its name.
+    /// Name of the place or data.
     pub name: &'n str,
-    /// Its documentation.
+    /// Documentation of the place or data.
     pub doc: &'n str,
     /// Tokens at the start.
     pub initial: u64,
@@ -49,18 +49,18 @@ pub struct Declared<'n> {
 /// A name for several places.
 #[derive(Clone, Copy, Debug)]
 pub struct Group<'n> {
-    /// Its name.
+    /// Name of the group.
     pub name: &'n str,
-    /// Its places.
+    /// The places of the group.
     pub members: &'n [&'n str],
 }
 
 /// A line of `transitions`.
 #[derive(Clone, Copy, Debug)]
 pub struct Line<'n> {
-    /// Its name.
+    /// Name of the line.
     pub name: &'n str,
-    /// Its documentation.
+    /// Documentation of the line.
     pub doc: &'n str,
     /// The event; empty without one.
     pub on: &'n str,
@@ -96,11 +96,11 @@ pub struct Ignore<'n> {
 /// One condition of a guard: a place, flag, counter or shared place compared with a number.
 #[derive(Clone, Copy, Debug)]
 pub struct Test<'n> {
-    /// What is compared.
+    /// Name of the place or data compared.
     pub name: &'n str,
-    /// How.
+    /// The comparison.
     pub relation: Relation,
-    /// With what.
+    /// The number compared with.
     pub value: u64,
 }
 
@@ -122,9 +122,9 @@ pub enum Relation {
 /// A change of a flag, a counter or a shared place.
 #[derive(Clone, Copy, Debug)]
 pub struct Change<'n> {
-    /// What changes.
+    /// Name of the place or data changed.
     pub name: &'n str,
-    /// How.
+    /// The change.
     pub by: By,
 }
 
@@ -181,8 +181,8 @@ pub const fn doc(text: &str) -> &str {
     text.trim_ascii()
 }
 
-/// Where `net!` keeps what it read. It is implemented outside of the module that `net!` makes, so
-/// that numbers can be constants of an enclosing function.
+/// The source that `net!` keeps. It is implemented outside of the module that `net!` makes, so that
+/// numbers can be constants of an enclosing function.
 pub trait Written {
     /// The net as it was written.
     const SOURCE: Source<'static>;

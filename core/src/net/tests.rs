@@ -1,7 +1,7 @@
 //! Stories of nets whose lists do not fit together.
 
 use super::owned::{OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
-use super::{Arc, Defect, EventId, OutputId, PlaceId, Role, Within};
+use super::{Arc, EventId, NetError, OutputId, PlaceId, Role, Within};
 use std::string::ToString;
 
 #[test]
@@ -21,7 +21,7 @@ fn two_of_one_name_are_refused_also_in_large_nets() {
         change(&mut other);
         other.view().net().defect()
     };
-    let twice = |list, at| Some(Defect::Twice { list, at });
+    let twice = |list, at| Some(NetError::Twice { list, at });
     assert_eq!(with(&|it| it.places[70_000].name = "3".to_string()), twice("places", 70_000));
     assert_eq!(with(&|it| it.places[3].name = "70000".to_string()), twice("places", 70_000));
     assert_eq!(with(&|it| it.events[1].name = "go".to_string()), twice("events", 1));
@@ -48,8 +48,8 @@ fn sound() -> OwnedNet {
     net
 }
 
-/// What is wrong after a change.
-fn defect(change: impl FnOnce(&mut OwnedNet)) -> Option<Defect> {
+/// Returns the defect of the sound net after a change.
+fn defect(change: impl FnOnce(&mut OwnedNet)) -> Option<NetError> {
     let mut net = sound();
     assert_eq!(net.view().net().defect(), None);
     change(&mut net);
@@ -58,7 +58,7 @@ fn defect(change: impl FnOnce(&mut OwnedNet)) -> Option<Defect> {
 
 #[test]
 fn tokens_at_the_start_fit_and_complements_sum_to_the_bound() {
-    let place = |place| Some(Defect::Place { place });
+    let place = |place| Some(NetError::Place { place });
     assert_eq!(defect(|it| it.places[0].role = Role::Shared), None);
     // More than the bound, with a role that sums to nothing.
     assert_eq!(
@@ -74,15 +74,15 @@ fn tokens_at_the_start_fit_and_complements_sum_to_the_bound() {
 }
 
 #[test]
-fn a_transition_names_what_is_there_and_each_place_once() {
-    let unknown = Some(Defect::UnknownId { transition: 0 });
+fn a_transition_names_existing_places_and_each_once() {
+    let unknown = Some(NetError::UnknownId { transition: 0 });
     let arc = Arc { place: NOWHERE, weight: 1 };
     assert_eq!(defect(|it| it.transitions[0].take[0] = arc), unknown);
     assert_eq!(defect(|it| it.transitions[0].read.push(arc)), unknown);
     assert_eq!(defect(|it| it.transitions[0].give[0] = arc), unknown);
     assert_eq!(defect(|it| it.transitions[0].on = Some(EventId(1))), unknown);
     assert_eq!(defect(|it| it.transitions[0].emits.push(OutputId(1))), unknown);
-    let arcs = Some(Defect::Arcs { transition: 0 });
+    let arcs = Some(NetError::Arcs { transition: 0 });
     let again = Arc { place: A, weight: 1 };
     assert_eq!(defect(|it| it.transitions[0].read.push(again)), arcs);
     assert_eq!(defect(|it| it.transitions[0].take.push(again)), arcs);
@@ -92,14 +92,14 @@ fn a_transition_names_what_is_there_and_each_place_once() {
     let long = Within { earliest: 0, latest: Some(u32::MAX) };
     assert_eq!(
         defect(|it| it.transitions[0].within = Some(long)),
-        Some(Defect::Interval { transition: 0 })
+        Some(NetError::Interval { transition: 0 })
     );
 }
 
 #[test]
-fn a_law_and_what_is_ignored_name_what_is_there() {
+fn laws_and_ignored_pairs_name_existing_parts() {
     let law = |law: OwnedLaw| defect(|it| it.laws.push(law));
-    let bad = Some(Defect::Law);
+    let bad = Some(NetError::Law);
     let sum = |places: &[PlaceId]| OwnedLaw::Invariant {
         sum: places.iter().map(|&place| Arc { place, weight: 1 }).collect(),
         equals: 3,
@@ -124,7 +124,7 @@ fn a_law_and_what_is_ignored_name_what_is_there() {
 }
 
 #[test]
-fn what_is_said_of_a_place_and_of_a_transition_stays_with_it() {
+fn the_documentation_of_a_place_and_of_a_transition_stays_with_it() {
     let place = OwnedPlace::new("A", 1).doc("Waits.").at_most(2);
     assert_eq!((place.doc.as_str(), place.name.as_str(), place.bound), ("Waits.", "A", 2));
     let it = OwnedTransition::new("t").doc("Goes.").on(EventId(3)).within(1, None);

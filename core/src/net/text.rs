@@ -77,7 +77,7 @@ impl Text {
         panic!("{}", cut.as_str())
     }
 
-    /// What it says.
+    /// Returns the text.
     pub(crate) const fn as_str(&self) -> &str {
         as_str(self.bytes.split_at(self.length).0)
     }

@@ -13,7 +13,7 @@ const VARIANTS: usize = 4_096;
 /// The most tokens of a place, and the largest weight.
 pub(super) const MOST: u64 = 65_535;
 
-/// What one variant of a line does to one place.
+/// The effect of one variant of a line on one place.
 #[derive(Clone, Copy)]
 pub(super) struct Touch {
     pub(super) place: PlaceId,
@@ -236,14 +236,14 @@ impl Source<'_> {
 }
 
 impl Variant {
-    /// It touches nothing yet.
+    /// A variant that touches nothing yet.
     pub(super) const NOTHING: Self = Self {
         touched: [Touch { place: PlaceId(0), take: 0, give: 0, need: 0 }; TOUCHED],
         length: 0,
         possible: true,
     };
 
-    /// What it does to this place.
+    /// Returns the touch of this place, a new one if need be.
     #[track_caller]
     const fn touch(&mut self, source: &Source<'_>, line: &Line<'_>, place: PlaceId) -> &mut Touch {
         let mut at = 0;
@@ -393,8 +393,8 @@ impl Variant {
         self.length
     }
 
-    /// What it does to a place: tokens removed, read and added. A place of which more must be there
-    /// than is removed has the rest removed and put back.
+    /// Returns the arcs at a place: tokens removed, read and added. A place of which more must be
+    /// there than is removed has the rest removed and put back.
     pub(super) const fn arcs(&self, at: usize) -> (PlaceId, u64, u64, u64) {
         let touch = self.touched[at];
         if touch.take == 0 {

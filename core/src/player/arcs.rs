@@ -37,7 +37,7 @@ pub(super) const fn moved<const W: usize>(
             Some(Target::Place(owner)) => owner,
             _ => Of { component: component as u16, id: place },
         };
-        // Of a place that is taken and given the arc that takes counts for both.
+        // The taking arc counts for both of a place that is taken and given.
         let counts = taken || weight(it.take, place) == 0;
         if counts
             && let Some(field) = absence(system, lists, component, owner)
@@ -49,7 +49,7 @@ pub(super) const fn moved<const W: usize>(
                 give[word] += field.tokens(lost - gained);
             } else {
                 take[word] += field.tokens(gained - lost);
-                // What it reads anyway is part of what it needs.
+                // Tokens that the transition reads anyway are part of its needs.
                 let read = match complement(system.components[component].net, place) {
                     Some(complement) => weight(it.read, complement),
                     None => 0,

@@ -1,4 +1,4 @@
-//! What follows from a firing in a system: rendezvous and mailboxes, all of it or nothing.
+//! The consequences of a firing in a system: rendezvous and mailboxes, all of them or none.
 
 use super::SETTLE;
 use super::code::{Mailbox, NONE, Route, bounds};
@@ -26,7 +26,7 @@ enum Happened<M> {
 /// more, the player does everything once more to tell them.
 const REMEMBERED: usize = 16;
 
-/// What has happened so far, for the observer.
+/// The events so far, for the observer.
 struct Journal<M> {
     happened: [Option<Happened<M>>; REMEMBERED],
     count: usize,
@@ -81,6 +81,7 @@ impl<'w, L, M> UnderWay<'w, L, M> {
     }
 
     fn push(&mut self, said: (u16, u16, u16)) {
+        debug_assert!(self.depth <= DEPTH, "no chain of a system without defect is longer");
         if let Some(frame) = self.said.get_mut(self.depth) {
             *frame = said;
             self.depth = self.depth.saturating_add(1);
@@ -158,6 +159,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         let mut tell = |it: &Self, happened| it.show(happened, offered, carries, observer);
         // No mailbox was full.
         let again = self.go(begins, &mut UnderWay::new(carries, &mut tell));
+        debug_assert!(again.is_ok(), "the same happens again");
         again.unwrap_or(Outcome::Ignored { why: Why::NotEnabled })
     }
 
@@ -222,7 +224,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
             Happened::Fired(number, on) => {
                 let id = code.transition(number);
                 let on = on.map(|it| code.event(it));
-                // What was offered from outside is what the first transition fired on.
+                // The first transition fired on the event offered from outside.
                 let event = offered.filter(|it| Some(super::Kind::id(*it)) == on);
                 let program = &self.program;
                 observer.on_fire(&Firing { id, on, event, carries, at, program });
@@ -245,6 +247,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     pub(super) fn enabled_from(&self, first: u16, end: u16) -> Option<u16> {
         let code = self.program.code();
         (first..end).find(|&at| {
+            debug_assert!(usize::from(at) < code.entries.len(), "a span of entries");
             let entry = code.entries.get(usize::from(at));
             entry.is_some_and(|it| self.can(code, it) && self.open(code, it))
         })
@@ -263,12 +266,14 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         (under_way.tell)(self, Happened::Fired(number, on));
         let code = self.program.code();
         let (first, end) = bounds(code.says, usize::from(number));
+        debug_assert!(first <= end && end <= code.routes.len(), "routes of the system");
         under_way.push((code.transition(number).component, first as u16, end as u16));
         Some(number)
     }
 
     /// Puts something into a mailbox.
     fn put(&mut self, mailbox: u16, under_way: &mut UnderWay<'_, Self, M>) -> Result<(), Full> {
+        debug_assert!(usize::from(mailbox) < self.program.code().mailboxes.len(), "a mailbox");
         let Some(it) = self.program.code().mailboxes.get(usize::from(mailbox)) else {
             return Ok(());
         };
@@ -276,6 +281,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         if waiting >= u32::from(it.capacity) {
             return Err(Full(mailbox));
         }
+        debug_assert!(usize::from(it.slot) + (waiting as usize) < S, "a slot for each that waits");
         if let Some(slot) = self.slots.iter_mut().skip(usize::from(it.slot)).nth(waiting as usize) {
             *slot = under_way.carries;
         }
@@ -289,6 +295,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         let it = *self.program.code().mailboxes.get(mailbox)?;
         let waiting = it.waiting.of(&self.marking) as usize;
         let slot = usize::from(it.slot);
+        debug_assert!(slot + waiting <= S, "a slot for each that waits");
         let slots = self.slots.get_mut(slot..slot.checked_add(waiting)?)?;
         let oldest = *slots.first()?;
         // One place to the front each; `rotate_left` divides, and the compiler does not see that
@@ -317,6 +324,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         {
             *word = word.wrapping_add(to.tokens(1));
         }
+        debug_assert!(self.fits(&self.marking), "a mailbox holds no more than it can");
     }
 
     /// Empties the mailboxes that an event empties.

@@ -1,16 +1,46 @@
-//! The clocks of a player: how long transitions with an interval have been enabled.
+//! The clocks of a player: the time it was told, and how long transitions with an interval have
+//! been enabled.
 
 use super::code::{Code, Entry, NONE, minus, plus};
 use super::player::Player;
 use super::program::Program;
+use crate::units::Millis;
 
 impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Copy + Default>
     Player<P, W, C, S, M>
 {
+    /// The time it was last told.
+    pub const fn now(&self) -> Millis {
+        self.now
+    }
+
+    /// Returns how far this time lies before the one last told; `None` when it does not. Asked
+    /// before [`offer`](Self::offer) or [`advance`](Self::advance), it shows a clock that went
+    /// back: for the player, time stands still until the clock has caught up.
+    ///
+    /// ```
+    /// use cotama_core::{net, units::Millis};
+    /// net! { mod egg { places { Raw: 1, Hard } transitions { boil: Raw => Hard after 300 ms; } } }
+    /// let mut egg = egg::Player::new();
+    /// assert_eq!(egg.advance(Millis(200)).fired, 0);
+    /// assert_eq!(egg.clock_went_back(Millis(50)), Some(Millis(150)));
+    /// assert_eq!(egg.advance(Millis(50)).fired, 0); // still at 200 ms
+    /// assert_eq!((egg.now(), egg.wake_at()), (Millis(200), Some(Millis(300))));
+    /// assert_eq!(egg.clock_went_back(Millis(200)), None);
+    /// ```
+    #[must_use]
+    pub const fn clock_went_back(&self, now: Millis) -> Option<Millis> {
+        match self.now.checked_sub(now) {
+            Some(Millis::ZERO) | None => None,
+            back => back,
+        }
+    }
+
     /// Moves the tokens of a transition.
     #[inline]
     pub(super) fn apply(&mut self, entry: &Entry<W>) {
         let after = plus(&self.marking, &entry.delta);
+        debug_assert!(self.fits(&after), "a transition that fires keeps every bound");
         if C > 0
             && let Some(take) = self.program.code().takes.get(usize::from(entry.transition))
         {
@@ -28,6 +58,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         let entry = code.entries.get(usize::from(at))?;
         let (number, clock) = (entry.transition, entry.clock);
         let after = plus(&self.marking, &entry.delta);
+        debug_assert!(self.fits(&after), "a transition that fires keeps every bound");
         if C > 0
             && let Some(take) = code.takes.get(usize::from(number))
         {
@@ -39,6 +70,17 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         }
         self.marking = after;
         Some(number)
+    }
+
+    /// Whether no place holds more than it can. For a program loaded at run time that is said to be
+    /// bounded, the proof is its caller's.
+    pub(super) fn fits(&self, marking: &[u64; W]) -> bool {
+        let code = self.program.code();
+        if P::ALONE.is_none() && code.bounded {
+            return true;
+        }
+        let clear = |(guards, word): (&u64, &u64)| word & guards == 0;
+        code.guards.iter().zip(marking).all(clear) && code.holds(&code.bounds, marking)
     }
 
     /// Starts clocks anew of transitions that what was taken has left disabled; given what is left.
@@ -91,6 +133,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         // In their order, so that of several due at one instant the first one goes first.
         for entry in code.row(code.timed(), &self.marking)? {
             let number = usize::from(entry.clock);
+            debug_assert!(number < C && number < code.clocks.len(), "it waits for an instant");
             let (Some(clock), Some(&elapsed)) = (code.clocks.get(number), self.clocks.get(number))
             else {
                 continue;

@@ -12,9 +12,7 @@
 //! Transitions, events and places are numbered over all nets, in the order of the components.
 
 use super::field::Field;
-pub use super::kept::Kept;
-use super::lists::lists;
-pub use super::pack::{pack, size, size_of};
+use super::lists::{borrowed, each_list};
 use crate::net::data::{EventId, PlaceId, TransitionId};
 use crate::system::data::Of;
 
@@ -23,11 +21,11 @@ use crate::system::data::Of;
 pub struct Entry<const W: usize> {
     /// Tokens that must be there.
     pub need: [u64; W],
-    /// What is added to the marking, modulo 2^64 in each word.
+    /// The words added to the marking, modulo 2^64 in each word.
     pub delta: [u64; W],
-    /// Its number.
+    /// Number of the transition.
     pub transition: u16,
-    /// Its position in [`Code::clocks`]; [`NONE`] when it has no interval.
+    /// Position of its clock in [`Code::clocks`]; [`NONE`] when it has no interval.
     pub clock: u16,
 }
 
@@ -39,13 +37,13 @@ pub const NONE: u16 = u16::MAX;
 pub struct Clock<const W: usize> {
     /// Tokens that must be there for it to run: those that its transition needs.
     pub need: [u64; W],
-    /// Its position in [`Code::entries`].
+    /// Position of the transition in [`Code::entries`].
     pub entry: u16,
     /// Whether it waits for an event.
     pub event: bool,
-    /// It fires at this age or later, in milliseconds since it became enabled.
+    /// Least age at firing, in milliseconds since the transition became enabled.
     pub earliest: u32,
-    /// It fires at this age or earlier; `u32::MAX` means no limit.
+    /// Largest age at firing, in milliseconds; `u32::MAX` means no limit.
     pub latest: u32,
 }
 
@@ -64,7 +62,7 @@ impl<const W: usize> Clock<W> {
     }
 }
 
-/// Where an output goes.
+/// The destination of an output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Route {
     /// The number of the event.
@@ -88,53 +86,30 @@ pub struct Mailbox {
     pub capacity: u16,
 }
 
-lists! {
-    /// Transitions by row: those of an event, by the state that they need where rows have states,
-    /// then by priority and number.
-    entries: Entry<W> [T] = Entry { need: [0; W], delta: [0; W], transition: 0, clock: NONE },
-    /// The tokens that each transition removes, by its number; empty if there are no clocks.
-    takes: [u64; W] [K] = [0; W],
-    /// Where each row begins and ends in `entries`: two numbers, at `2 * (kind * states + state)`;
-    /// a row without any begins at [`NONE`]. The kinds: events, then for each component what fires
-    /// at once by itself, then all that fires by itself in an interval.
-    rows: u16 [R] = 0,
-    /// Where the outputs of all transitions go.
-    routes: Route [O] = Route { event: 0, mailbox: NONE },
-    /// The position in `routes` at which those of each transition begin, by its number, and at the
-    /// end how many there are; empty if there are no routes.
-    says: u16 [D] = 0,
-    /// Mailboxes, by component and then by event.
-    mailboxes: Mailbox [B] = Mailbox {
-        event: 0, waiting: Field::NOWHERE, room: None, slot: 0, capacity: 0,
-    },
-    /// For each component where its mailboxes begin, and at the end how many there are.
-    turns: u16 [N] = 0,
-    /// For each component the number of its first event, and at the end how many there are.
-    events: u16 [N] = 0,
-    /// For each component the number of its first transition, and at the end how many there are.
-    transitions: u16 [N] = 0,
-    /// For each component the number of its first place, and at the end how many there are.
-    places: u16 [N] = 0,
-    /// Where each place lies.
-    fields: Field [P] = Field::NOWHERE,
-    /// Complements that no net has, and the system needs: the number of the place, and where its
-    /// complement lies.
-    complements: (u16, Field) [X] = (0, Field::NOWHERE),
-    /// Transitions with an interval.
-    clocks: Clock<W> [C] = Clock { need: [0; W], entry: 0, event: false, earliest: 0, latest: 0 },
-    /// Pairs of an event and the position of a mailbox that it empties.
-    clears: (u16, u16) [E] = (0, 0),
-    /// Pairs of an event and a place that ignores it on purpose, those without a guard.
-    ignored: (u16, u16) [G] = (0, 0),
-    /// The same for pairs with a guard: an event and the tokens that must be there.
-    ignored_where: (u16, [u64; W]) [I] = (0, [0; W]),
-    /// What every reachable marking keeps: complements, then laws by component.
-    kept: Kept [L] = Kept::NOTHING,
-    /// The numbers of the places of `kept`, with their weights.
-    summands: (u16, u32) [M] = (0, 0),
+each_list!(borrowed);
+
+/// A weighted sum of tokens that stays the same, or two places that are never both marked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Kept {
+    /// The component.
+    pub component: u16,
+    /// The position in [`Net::laws`](crate::net::data::Net::laws); [`NONE`] for a place and its
+    /// complement.
+    pub law: u16,
+    /// Start of its places in [`Code::summands`].
+    pub first: u16,
+    /// End of its places.
+    pub end: u16,
+    /// The sum; `None` where one of them at most is marked.
+    pub equals: Option<u32>,
 }
 
-/// What is not a list in a [`Code`].
+impl Kept {
+    pub(super) const NOTHING: Self =
+        Self { component: 0, law: NONE, first: 0, end: 0, equals: None };
+}
+
+/// The parts of a [`Code`] that are no lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Words<const W: usize> {
     /// The highest bit of every field.
@@ -143,7 +118,7 @@ pub struct Words<const W: usize> {
     pub bounds: [u64; W],
     /// The marking at the start.
     pub initial: [u64; W],
-    /// Where none of these bits is set, no transition fires at once by itself: a place of each such
+    /// Bits of which one is set wherever a transition fires at once by itself: a place of each such
     /// transition, or the guard bit if it needs no place.
     pub restless: [u64; W],
     /// The bits of the places of which exactly one is marked at any time; zero unless it is a net
@@ -188,7 +163,7 @@ pub struct Size {
     pub ignored_where: usize,
     pub kept: usize,
     pub summands: usize,
-    /// What can wait in all mailboxes together.
+    /// The most events that can wait in all mailboxes together.
     pub slots: usize,
 }
 
@@ -199,7 +174,7 @@ impl<'c, const W: usize> Code<'c, W> {
         self.turns.len() <= 2 && self.routes.is_empty()
     }
 
-    /// How many components.
+    /// Returns the number of components.
     #[inline]
     pub(super) const fn components(&self) -> usize {
         self.turns.len().saturating_sub(1)
@@ -208,6 +183,7 @@ impl<'c, const W: usize> Code<'c, W> {
     /// How many events over all nets: the first kind beyond them is what fires at once by itself.
     #[inline]
     pub(super) fn first_urgent(&self) -> usize {
+        debug_assert!(self.events.len() == self.turns.len(), "the lists are of one system");
         self.events.last().map_or(0, |&it| usize::from(it))
     }
 
@@ -228,6 +204,7 @@ impl<'c, const W: usize> Code<'c, W> {
         let (start, end) = self.row_bounds(kind, marking)?;
         let mut at = usize::from(start);
         loop {
+            debug_assert!(start == NONE || end as usize <= self.entries.len(), "a row of entries");
             let entry = self.entries.get(at)?;
             if can(entry) {
                 return Some(entry);
@@ -246,8 +223,7 @@ impl<'c, const W: usize> Code<'c, W> {
         self.entries.get(usize::from(start)..usize::from(end))
     }
 
-    /// Where the transitions of a kind that the state enables begin in `entries`, and where they
-    /// end.
+    /// Returns the bounds in `entries` of the transitions of a kind that the state enables.
     #[inline]
     fn row_bounds(&self, kind: usize, marking: &[u64; W]) -> Option<(u16, u16)> {
         let of_kind = kind.checked_mul(2 * usize::from(self.states))?;
@@ -257,12 +233,14 @@ impl<'c, const W: usize> Code<'c, W> {
 
     /// The first and the end in `entries` of the transitions of some kinds that follow each other.
     pub(super) fn span(&self, kinds: core::ops::Range<usize>) -> (u16, u16) {
-        // Where the last row of a kind ends the first one of the next begins.
+        // The last row of a kind ends at the first one of the next.
         let end = |kinds: usize| {
             let row = kinds.checked_mul(2 * usize::from(self.states))?.checked_sub(1)?;
             self.rows.get(row).copied()
         };
-        (end(kinds.start).unwrap_or(0), end(kinds.end).unwrap_or(0))
+        let (first, end) = (end(kinds.start).unwrap_or(0), end(kinds.end).unwrap_or(0));
+        debug_assert!(first <= end && usize::from(end) <= self.entries.len(), "a span of entries");
+        (first, end)
     }
 
     /// All transitions of some kinds that follow each other.
@@ -282,6 +260,7 @@ impl<'c, const W: usize> Code<'c, W> {
     #[inline]
     fn control_bit(&self, marking: &[u64; W]) -> usize {
         let marked = marking.first().map_or(0, |word| word & self.control);
+        debug_assert!(self.control == 0 || marked.is_power_of_two(), "one state is marked");
         // Most have up to sixteen states: half a word, for which small processors need half the
         // instructions.
         let bit = if self.control == 0 {
@@ -370,7 +349,7 @@ pub const fn plus<const W: usize>(marking: &[u64; W], delta: &[u64; W]) -> [u64;
     after
 }
 
-/// What is left of a marking; what is taken is there.
+/// Returns the marking less the tokens taken, all of which it has.
 #[inline]
 pub const fn minus<const W: usize>(marking: &[u64; W], take: &[u64; W]) -> [u64; W] {
     let mut left = *marking;
@@ -396,6 +375,7 @@ fn of(firsts: &[u16], number: u16) -> (u16, u32) {
     if firsts.len() <= 2 {
         return (0, u32::from(number));
     }
+    debug_assert!(firsts.is_sorted(), "the components in their order");
     let component = firsts.partition_point(|&first| first <= number).saturating_sub(1);
     let first = firsts.get(component).copied().unwrap_or(0);
     (component as u16, u32::from(number.saturating_sub(first)))

@@ -1,9 +1,9 @@
-//! Where the tokens of a place lie in a marking.
+//! The position of a place's tokens in a marking.
 
 /// The largest bound of a field; a place without a bound gets it.
 pub const LARGEST: u32 = 65_535;
 
-/// Where a place lies in a marking.
+/// The position of a place in a marking.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Field {
     /// The word.
@@ -20,11 +20,12 @@ impl Field {
 
     /// This many tokens in the word of the field.
     pub const fn tokens(self, tokens: u32) -> u64 {
+        debug_assert!(self.shift < 64 && tokens as u64 <= self.mask() + 1, "tokens fit the field");
         // A shift is below 64, but the compiler does not know that of a field that is looked up.
         (tokens as u64).wrapping_shl(self.shift as u32)
     }
 
-    /// Its tokens in a marking; none when it lies beyond the marking.
+    /// Returns the tokens in a marking; 0 when the field lies beyond the marking.
     ///
     /// ```
     /// # use cotama_core::player::Field;
@@ -44,6 +45,7 @@ impl Field {
 
     /// All tokens that it can hold, at the lowest bits.
     pub(super) const fn mask(self) -> u64 {
+        debug_assert!(self.shift as u32 + (self.width as u32) < u64::BITS, "a field and its guard");
         1_u64.wrapping_shl(self.width as u32).wrapping_sub(1)
     }
 }

@@ -1,29 +1,11 @@
-//! What every reachable marking keeps, packed: so that a stored marking is judged without the texts
-//! of its nets, which a microcontroller then does without.
+//! The invariants of every reachable marking, packed: so that a stored marking is judged without
+//! the texts of its nets, which a microcontroller then does without.
 
-use super::code::{Code, Lists, NONE};
+use super::code::{Code, Kept, Lists, NONE};
 use crate::net::data::{Law, Net, PlaceId, Role};
 use crate::system::data::System;
 
-/// A weighted sum of tokens that stays the same, or two places that are never both marked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Kept {
-    /// The component.
-    pub component: u16,
-    /// The position in [`Net::laws`]; [`NONE`] for a place and its complement.
-    pub law: u16,
-    /// Its places: from here in [`Code::summands`] on.
-    pub first: u16,
-    /// Where they end.
-    pub end: u16,
-    /// The sum; `None` where one of them at most is marked.
-    pub equals: Option<u32>,
-}
-
 impl Kept {
-    pub(super) const NOTHING: Self =
-        Self { component: 0, law: NONE, first: 0, end: 0, equals: None };
-
     /// Whether a marking keeps it.
     pub(super) fn holds<const W: usize>(&self, code: &Code<'_, W>, marking: &[u64; W]) -> bool {
         let places = code.summands.get(usize::from(self.first)..usize::from(self.end));
@@ -117,6 +99,8 @@ pub(super) const fn keep<const W: usize>(system: &System<'_>, lists: &mut Lists<
         }
         component += 1;
     }
+    debug_assert!(done.0 == lists.kept.len(), "each law of markings is listed");
+    debug_assert!(done.1 == lists.summands.len(), "each place of them is listed");
 }
 
 /// Adds one of two places; how many sums and places there are then.

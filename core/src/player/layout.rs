@@ -1,11 +1,11 @@
-//! Where the places and mailboxes of a system lie in a marking.
+//! The layout of a system's places and mailboxes in a marking.
 
 use super::code::{Lists, Mailbox, NONE, Words};
 use super::field::{Field, clamped};
 use crate::net::data::{EventId, Net, Place, PlaceId, Role};
 use crate::system::data::{Binding, Delivery, Of, System, Target};
 
-/// What is laid out so far.
+/// The bits laid out so far.
 pub(super) struct Used {
     word: u16,
     bits: u8,
@@ -14,7 +14,7 @@ pub(super) struct Used {
 impl Used {
     pub(super) const NOTHING: Self = Self { word: 0, bits: 0 };
 
-    /// How many words.
+    /// Returns the number of words.
     pub(super) const fn words(&self) -> usize {
         self.word as usize + 1
     }
@@ -104,6 +104,7 @@ pub(super) const fn layout<const W: usize>(
         }
         component += 1;
     }
+    debug_assert!(made == lists.complements.len(), "each place that lacks one gets one");
     mailboxes(system, lists, words, &mut used);
     shared(system, lists);
 }
@@ -158,11 +159,13 @@ const fn mailboxes<const W: usize>(
         }
         component += 1;
     }
+    debug_assert!(count == lists.mailboxes.len(), "each mailbox is listed");
     lists.turns[component] = count as u16;
 }
 
 const fn fill<const W: usize>(words: &mut Words<W>, field: Field, initial: u32, bound: u32) {
     let word = field.word as usize;
+    debug_assert!(words.guards[word] >> field.shift == 0, "no field lies over another");
     words.guards[word] |= 1 << (field.shift + field.width);
     words.bounds[word] |= field.tokens(clamped(bound));
     words.initial[word] |= field.tokens(initial);
@@ -204,7 +207,7 @@ const fn shared<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
     }
 }
 
-/// Where the complement lies that the system makes for this place.
+/// Returns the field of the complement that the system makes for this place.
 pub(super) const fn made_complement(complements: &[(u16, Field)], place: u16) -> Field {
     let mut at = 0;
     while complements[at].0 != place {

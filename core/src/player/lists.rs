@@ -1,8 +1,58 @@
 //! The lists of a packed system, declared once: borrowed, of lengths known when compiling, or on
 //! the heap.
 
-/// Makes `Code`, `Lists`, `Arrays` and, with the feature `alloc`, `Packed` of the same lists.
-macro_rules! lists {
+/// Hands the table of all lists to a macro: documentation, name, item, the parameter of the length,
+/// and an item that says nothing.
+macro_rules! each_list {
+    ($make:ident) => { $make! {
+    /// Transitions by row: those of an event, by the state that they need where rows have states,
+    /// then by priority and number.
+    entries: Entry<W> [T] = Entry { need: [0; W], delta: [0; W], transition: 0, clock: NONE },
+    /// The tokens that each transition removes, by its number; empty if there are no clocks.
+    takes: [u64; W] [K] = [0; W],
+    /// The bounds of each row in `entries`: two numbers, at `2 * (kind * states + state)`; a row
+    /// without any begins at [`NONE`]. The kinds: events, then for each component what fires at
+    /// once by itself, then all that fires by itself in an interval.
+    rows: u16 [R] = 0,
+    /// The destinations of the outputs of all transitions.
+    routes: Route [O] = Route { event: 0, mailbox: NONE },
+    /// The position in `routes` at which those of each transition begin, by its number, and at the
+    /// end how many there are; empty if there are no routes.
+    says: u16 [D] = 0,
+    /// Mailboxes, by component and then by event.
+    mailboxes: Mailbox [B] = Mailbox {
+        event: 0, waiting: Field::NOWHERE, room: None, slot: 0, capacity: 0,
+    },
+    /// For each component where its mailboxes begin, and at the end how many there are.
+    turns: u16 [N] = 0,
+    /// For each component the number of its first event, and at the end how many there are.
+    events: u16 [N] = 0,
+    /// For each component the number of its first transition, and at the end how many there are.
+    transitions: u16 [N] = 0,
+    /// For each component the number of its first place, and at the end how many there are.
+    places: u16 [N] = 0,
+    /// The field of each place.
+    fields: Field [P] = Field::NOWHERE,
+    /// Complements that no net has, and the system needs: the number of the place, and where its
+    /// complement lies.
+    complements: (u16, Field) [X] = (0, Field::NOWHERE),
+    /// Transitions with an interval.
+    clocks: Clock<W> [C] = Clock { need: [0; W], entry: 0, event: false, earliest: 0, latest: 0 },
+    /// Pairs of an event and the position of a mailbox that it empties.
+    clears: (u16, u16) [E] = (0, 0),
+    /// Pairs of an event and a place that ignores it on purpose, those without a guard.
+    ignored: (u16, u16) [G] = (0, 0),
+    /// The same for pairs with a guard: an event and the tokens that must be there.
+    ignored_where: (u16, [u64; W]) [I] = (0, [0; W]),
+    /// The invariants of every reachable marking: complements, then laws by component.
+    kept: Kept [L] = Kept::NOTHING,
+    /// The numbers of the places of `kept`, with their weights.
+    summands: (u16, u32) [M] = (0, 0),
+    } };
+}
+
+/// Makes `Code`, `Lists` and, with the feature `alloc`, `Lengths` of the lists.
+macro_rules! borrowed {
     ($(
         $(#[doc = $doc:literal])*
         $list:ident : $item:ty [$length:ident] = $nothing:expr,
@@ -38,6 +88,48 @@ macro_rules! lists {
             $( pub $list: &'l mut [$item], )*
         }
 
+        /// The length of each list.
+        #[cfg(feature = "alloc")]
+        #[derive(Debug)]
+        pub(super) struct Lengths {
+            $( pub(super) $list: usize, )*
+        }
+
+        #[cfg(feature = "alloc")]
+        impl Size {
+            /// The length of each list.
+            pub(super) const fn lengths(&self) -> Lengths {
+                Lengths {
+                    entries: self.entries,
+                    takes: self.takes,
+                    rows: self.rows,
+                    routes: self.routes,
+                    says: self.says,
+                    mailboxes: self.mailboxes,
+                    turns: self.components + 1,
+                    events: self.components + 1,
+                    transitions: self.components + 1,
+                    places: self.components + 1,
+                    fields: self.fields,
+                    complements: self.complements,
+                    clocks: self.clocks,
+                    clears: self.clears,
+                    ignored: self.ignored,
+                    ignored_where: self.ignored_where,
+                    kept: self.kept,
+                    summands: self.summands,
+                }
+            }
+        }
+    };
+}
+
+/// Makes `Arrays` and, with the feature `alloc`, `Packed` of the lists.
+macro_rules! owned {
+    ($(
+        $(#[doc = $doc:literal])*
+        $list:ident : $item:ty [$length:ident] = $nothing:expr,
+    )*) => {
         /// The lists of a [`Code`] whose lengths are known when compiling.
         #[derive(Clone, Copy, Debug)]
         pub struct Arrays<
@@ -160,40 +252,6 @@ macro_rules! lists {
                 }
             }
         }
-
-        /// The length of each list.
-        #[cfg(feature = "alloc")]
-        #[derive(Debug)]
-        struct Lengths {
-            $( $list: usize, )*
-        }
-
-        #[cfg(feature = "alloc")]
-        impl Size {
-            /// The length of each list.
-            const fn lengths(&self) -> Lengths {
-                Lengths {
-                    entries: self.entries,
-                    takes: self.takes,
-                    rows: self.rows,
-                    routes: self.routes,
-                    says: self.says,
-                    mailboxes: self.mailboxes,
-                    turns: self.components + 1,
-                    events: self.components + 1,
-                    transitions: self.components + 1,
-                    places: self.components + 1,
-                    fields: self.fields,
-                    complements: self.complements,
-                    clocks: self.clocks,
-                    clears: self.clears,
-                    ignored: self.ignored,
-                    ignored_where: self.ignored_where,
-                    kept: self.kept,
-                    summands: self.summands,
-                }
-            }
-        }
     };
 }
-pub(super) use lists;
+pub(super) use {borrowed, each_list, owned};

@@ -58,29 +58,33 @@ mod kept;
 mod layout;
 mod lists;
 mod machine;
+pub mod memory;
 mod observer;
 mod outcome;
-mod pack;
+pub mod pack;
 #[allow(clippy::module_inception, reason = "the door of the room is the player")]
 mod player;
 mod program;
 #[cfg(kani)]
 pub mod proofs;
+mod recorder;
 mod settle;
 mod snapshot;
 mod step;
 
-#[cfg(feature = "alloc")]
-pub use code::Packed;
-pub use code::{Arrays, Code};
+pub use code::Code;
 pub use field::{Field, LARGEST};
 #[cfg(feature = "alloc")]
 pub use heap::{clocks, slots, words};
 pub use machine::is_state_machine;
+pub use memory::Arrays;
+#[cfg(feature = "alloc")]
+pub use memory::Packed;
 pub use observer::{Firing, Observer};
-pub use outcome::{Advanced, Outcome, Round, Stepped, Why};
+pub use outcome::{Advanced, EventNames, Outcome, Round, Stepped, Why};
 pub use player::Player;
 pub use program::{Checked, Kind, Loaded, Names, Program, StateMachine, Steps};
+pub use recorder::Recorder;
 pub use snapshot::{RestoreError, Snapshot, Stored};
 
 /// The most transitions that one call lets fire by themselves while it catches up; see

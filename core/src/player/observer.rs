@@ -1,9 +1,12 @@
 //! Observers hear what a player does.
 
+use super::outcome::ByName;
 use super::program::Names;
 use crate::net::data::{EventId, TransitionId};
 use crate::system::data::Of;
 use crate::units::Millis;
+use core::fmt;
+use core::marker::PhantomData;
 
 /// A transition that has just fired.
 ///
@@ -20,15 +23,23 @@ use crate::units::Millis;
 /// let mut hear = |it: &egg::Firing<'_>| rung = it.says(egg::Output::ring).then_some(it.at);
 /// assert_eq!(egg.advance_with(Millis(900), &mut hear).fired, 1);
 /// assert_eq!(rung, Some(Millis(300))); // told late, it fired when it was due
+///
+/// let mut said = String::new();
+/// let mut hear = |it: &egg::Firing<'_>| said = format!("{it:?}");
+/// let _ = egg::Player::new().advance_with(Millis(300), &mut hear);
+/// let all = "Firing { transition: boil, on: None, says: [ring], at: Millis(300) }";
+/// assert_eq!(said, all);
 /// ```
-#[derive(Debug)]
+///
+/// `Debug` says everything by its name:
+/// `Firing { transition: boil, on: None, says: [ring], at: Millis(300) }`.
 pub struct Firing<'f, P: Names, M = ()> {
     /// The transition.
     pub id: Of<TransitionId>,
     /// The event on which it fired; `None` for one that fires by itself.
     pub on: Option<Of<EventId>>,
-    /// That event as it was offered from outside, with what it carries along; `None` when another
-    /// net caused it.
+    /// The event as it was offered from outside, with its payload; `None` when another net caused
+    /// it.
     pub event: Option<&'f P::Event>,
     /// The value that an event carries to everything that happens because of it. A transition that
     /// fires by itself carries the default value.
@@ -46,17 +57,35 @@ impl<'f, P: Names, M> Firing<'f, P, M> {
         self.program.transition(self.id)
     }
 
-    /// What it says, in this order.
+    /// Iterates over the outputs emitted, in this order.
     #[inline]
     pub fn outputs(&self) -> impl Iterator<Item = P::Output> + use<'f, P, M> {
         let (program, id) = (self.program, self.id);
         (0..usize::MAX).map_while(move |at| program.output(id, at))
     }
 
-    /// Whether it says this.
+    /// Returns whether the transition emits this output.
     #[inline]
     pub fn says(&self, output: P::Output) -> bool {
         self.outputs().any(|it| it == output)
+    }
+}
+
+impl<P: Names, M> fmt::Debug for Firing<'_, P, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        struct Says<'s, 'f, P: Names, M>(&'s Firing<'f, P, M>);
+        impl<P: Names, M> fmt::Debug for Says<'_, '_, P, M> {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.debug_list().entries(self.0.outputs()).finish()
+            }
+        }
+        let on = self.on.map(|it| ByName::<P::Transition>(it, PhantomData));
+        f.debug_struct("Firing")
+            .field("transition", &self.transition())
+            .field("on", &on)
+            .field("says", &Says(self))
+            .field("at", &self.at)
+            .finish()
     }
 }
 

@@ -1,9 +1,11 @@
-//! What a player answers.
+//! Answers of a player.
 
-use crate::net::data::EventId;
-use crate::system::data::Of;
+use crate::net::data::{EventId, TransitionId};
+use crate::system::data::{Of, System};
+use core::fmt;
+use core::marker::PhantomData;
 
-/// What became of an event.
+/// The outcome of an event.
 ///
 /// ```
 /// use cotama_core::{net, player::{Outcome, Why}, units::Millis};
@@ -20,20 +22,23 @@ use crate::system::data::Of;
 /// let ignored = Outcome::Ignored { why: Why::NotEnabled };
 /// assert_eq!(lamp.offer(Millis(1), &lamp::Event::press), ignored);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+///
+/// `Debug` says a mailbox by its name, as `Refused { full: arm.take }`, where the type of a line
+/// [knows names](EventNames).
+#[derive(Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[must_use = "an event may have been ignored or refused"]
 pub enum Outcome<T> {
     /// A transition fired.
     Fired {
-        /// Its line.
+        /// The transition that fired first.
         transition: T,
         /// How many more fired at the same instant: by a rendezvous, or at once by themselves.
         settled: u32,
     },
-    /// None fired; the event is gone.
+    /// No transition fired; the event is gone.
     Ignored {
-        /// Why.
+        /// The reason.
         why: Why<T>,
     },
     /// A transition could not fire because this mailbox, of this event, is full; nothing has
@@ -69,6 +74,64 @@ impl<T> Outcome<T> {
                 },
             },
             Self::Refused { full } => Outcome::Refused { full },
+        }
+    }
+}
+
+/// Names of events, known by the type of a line: `net!` and `system!` make types that know their
+/// names.
+pub trait EventNames {
+    /// Writes the name of an event, `NET.EVENT` in a system; where no names are known, its numbers.
+    ///
+    /// # Errors
+    /// When the writer has one.
+    fn event(event: Of<EventId>, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{event:?}")
+    }
+
+    /// Writes the name of an event of a system.
+    ///
+    /// # Errors
+    /// When the writer has one.
+    fn event_of(
+        system: &System<'_>,
+        event: Of<EventId>,
+        f: &mut fmt::Formatter<'_>,
+    ) -> fmt::Result {
+        let component = system.components.get(usize::from(event.component));
+        match component.and_then(|it| Some((it, it.net.events.get(event.id.0 as usize)?))) {
+            Some((_, named)) if system.is_alone() => f.write_str(named.name),
+            Some((it, named)) => write!(f, "{}.{}", it.name, named.name),
+            None => write!(f, "{event:?}"),
+        }
+    }
+}
+
+impl EventNames for Of<TransitionId> {}
+impl EventNames for u16 {}
+
+/// An event that is written by its name.
+pub(super) struct ByName<T>(pub(super) Of<EventId>, pub(super) PhantomData<T>);
+
+impl<T: EventNames> fmt::Debug for ByName<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        T::event(self.0, f)
+    }
+}
+
+impl<T: EventNames + fmt::Debug> fmt::Debug for Outcome<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Fired { transition, settled } => f
+                .debug_struct("Fired")
+                .field("transition", transition)
+                .field("settled", settled)
+                .finish(),
+            Self::Ignored { why } => f.debug_struct("Ignored").field("why", why).finish(),
+            Self::Refused { full } => {
+                let full = ByName::<T>(*full, PhantomData);
+                f.debug_struct("Refused").field("full", &full).finish()
+            }
         }
     }
 }
@@ -115,7 +178,7 @@ pub enum Why<T> {
     NoSuchEvent,
 }
 
-/// What happened while time passed.
+/// The outcome of passing time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[must_use = "the player may be behind"]
@@ -127,7 +190,7 @@ pub struct Advanced {
     pub behind: bool,
 }
 
-/// What a round did.
+/// The outcome of a round.
 ///
 /// ```
 /// use cotama_core::{net, player::Round, system, units::Millis};
@@ -169,7 +232,7 @@ pub struct Round {
     pub behind: bool,
 }
 
-/// What a synchronous step did.
+/// The outcome of a synchronous step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[must_use = "an event may have been ignored"]

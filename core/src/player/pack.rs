@@ -199,7 +199,9 @@ const fn entries<const W: usize>(
         done = rows(system, lists, of, Kind::AtOnce, states, control, done);
         component += 1;
     }
-    rows(system, lists, (0, count), Kind::InTime, states, control, done);
+    done = rows(system, lists, (0, count), Kind::InTime, states, control, done);
+    let all = done.0 == lists.entries.len() && done.1 == lists.rows.len();
+    debug_assert!(all, "each transition and each kind is listed");
 }
 
 /// The rows of a kind: one for each state, or one for all of them where a transition fires in any.
@@ -362,6 +364,7 @@ const fn clocks<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
         }
         at += 1;
     }
+    debug_assert!(clock == lists.clocks.len(), "each interval is listed");
 }
 
 /// Routes, by transition, and what is cleared.
@@ -383,6 +386,7 @@ const fn say<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
         }
         component += 1;
     }
+    debug_assert!(route == lists.routes.len(), "each link is listed");
     if !lists.says.is_empty() {
         lists.says[number] = route as u16;
     }
@@ -391,6 +395,7 @@ const fn say<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
         let clear = system.clears[at];
         let first = lists.events[clear.on.component as usize];
         let emptied = mailbox_of(lists.mailboxes, first + clear.mailbox.0 as u16);
+        debug_assert!(emptied != NONE, "a mailbox is emptied");
         lists.clears[at] = (first + clear.on.id.0 as u16, emptied);
         at += 1;
     }
@@ -420,7 +425,7 @@ const fn follow<const W: usize>(
     route
 }
 
-/// What places ignore on purpose.
+/// Packs the events that places ignore on purpose.
 const fn ignore<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
     let (mut component, mut count, mut guarded) = (0, 0, 0);
     while component < system.components.len() {
@@ -441,4 +446,5 @@ const fn ignore<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
         }
         component += 1;
     }
+    debug_assert!(count == lists.ignored.len() && guarded == lists.ignored_where.len(), "all");
 }

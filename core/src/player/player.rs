@@ -120,7 +120,10 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
                 return Outcome::Ignored { why: Why::Behind };
             }
         } else {
-            // Nothing waits for an instant, and what is proven has settled before.
+            debug_assert!(
+                self.settled_if_proven(),
+                "nothing waits, and what is proven has settled"
+            );
             self.now = self.now.max(now);
         }
         let code = self.program.code();
@@ -164,7 +167,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
 
     /// Lets time pass up to `now`: transitions without event fire when they are due. One that is
     /// due while a mailbox that it mails to is full waits until there is room. A time before the
-    /// last one counts as the last one.
+    /// last one counts as the last one; [`clock_went_back`](Self::clock_went_back) says so.
     #[inline]
     pub fn advance_with(&mut self, now: Millis, observer: &mut impl Observer<P, M>) -> Advanced {
         if Self::ALONE {
@@ -176,7 +179,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
 
     /// Lets time pass.
     fn pass_to(&mut self, now: Millis, observer: &mut impl Observer<P, M>) -> Advanced {
-        // What is proven to settle has settled before.
+        // A net proven to settle has settled before.
         let settled = Self::ALONE && Self::bounded(self.program.code());
         let fired = if settled { 0 } else { self.rest(observer) };
         let mut advanced = Advanced { fired, behind: self.is_cut_short(fired) };
@@ -250,11 +253,6 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         Some(Millis(self.now.0.saturating_add(u64::from(wait))))
     }
 
-    /// The time it was last told.
-    pub const fn now(&self) -> Millis {
-        self.now
-    }
-
     /// The tokens of a place.
     #[inline]
     pub fn tokens(&self, place: impl Into<Of<PlaceId>>) -> u32 {
@@ -276,7 +274,13 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         &self.marking
     }
 
-    /// What it plays.
+    /// Returns how long each transition with an interval has been enabled, in milliseconds up to
+    /// the end of its interval; zero while it is not.
+    pub const fn clocks(&self) -> &[u32; C] {
+        &self.clocks
+    }
+
+    /// Returns the program played.
     pub const fn program(&self) -> &P {
         &self.program
     }
@@ -301,8 +305,8 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         }
         let marked =
             |&(at, _): &(u32, &N::State)| self.tokens(Of { component, id: PlaceId(at) }) > 0;
-        // A state machine has one token, so one of them is marked.
         let state = (0..u32::MAX).zip(N::STATES).find(marked);
+        debug_assert!(state.is_some(), "a state machine has one token");
         state.map_or(N::STATES[0], |it| *it.1)
     }
 
@@ -392,7 +396,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
                         round.waiting = round.waiting.saturating_add(1);
                         break;
                     }
-                    // What was read has emptied it.
+                    // An event read before has emptied it.
                     None => break,
                 }
             }
@@ -443,7 +447,7 @@ where
             );
         }
         let state = self.program.code().state(&self.marking);
-        // A state machine has one token, so the first state is never needed.
+        debug_assert!(state < P::STATES.len(), "a state machine has one token");
         P::STATES.get(state).copied().unwrap_or(P::STATES[0])
     }
 }

@@ -1,6 +1,7 @@
-//! What a [`Player`](super::Player) plays: a packed system and the names in it.
+//! The program of a [`Player`](super::Player): a packed system and its names.
 
 use super::code::Code;
+use super::outcome::EventNames;
 use crate::net::data::{EventId, Net, OutputId, TransitionId};
 use crate::system::data::{Of, System};
 use core::fmt::Debug;
@@ -28,11 +29,11 @@ impl Kind for Of<EventId> {
 
 /// The names in a system, as types.
 pub trait Names {
-    /// Its events.
+    /// Names of the events.
     type Event: Kind;
     /// The lines of its definition.
-    type Transition: Copy + Debug + PartialEq;
-    /// Its outputs.
+    type Transition: Copy + Debug + PartialEq + EventNames;
+    /// Names of the outputs.
     type Output: Copy + Debug + PartialEq;
 
     /// The line of a transition.
@@ -74,7 +75,7 @@ pub trait Program<const W: usize, const C: usize = 0, const S: usize = 0>: Names
     /// The system as plain data.
     fn system(&self) -> System<'_>;
 
-    /// What each transition of a net alone takes, by its number: for
+    /// Returns the tokens taken by each transition of a net alone, by its number: for
     /// [steps](super::Player::step).
     fn takes(&self, transition: u16) -> [u64; W];
 
@@ -85,25 +86,25 @@ pub trait Program<const W: usize, const C: usize = 0, const S: usize = 0>: Names
 
 /// A net whose `Role::State` places are those of a state machine, or are not.
 pub trait StateMachine {
-    /// Its places.
+    /// Names of the places.
     type State: Copy + 'static;
-    /// All of them.
+    /// All states, in their order.
     const STATES: &'static [Self::State];
     /// Whether exactly one of them is marked at any time.
     const IS_ONE: bool;
 }
 
-/// What synchronous steps need besides the code, for a net of `T` transitions.
+/// The tables that synchronous steps need besides the code, for a net of `T` transitions.
 #[derive(Clone, Copy, Debug)]
 pub struct Steps<const T: usize, const W: usize> {
-    /// What each transition takes, by its number.
+    /// The tokens taken by each transition, by its number.
     pub takes: [[u64; W]; T],
     /// Positions in [`Code::entries`] by priority, then by number.
     pub order: [u16; T],
 }
 
 impl<const T: usize, const W: usize> Steps<T, W> {
-    /// Those of a net alone of `T` transitions.
+    /// Returns the tables of a net alone of `T` transitions.
     pub const fn of(system: &System<'_>, code: &Code<'_, W>) -> Self {
         let net = system.components[0].net;
         let mut steps = Self { takes: [[0; W]; T], order: [0; T] };

@@ -9,6 +9,12 @@ use core::ops::Range;
 impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Copy + Default>
     Player<P, W, C, S, M>
 {
+    /// Whether a net that is proven to settle has done so.
+    pub(super) fn settled_if_proven(&self) -> bool {
+        let code = self.program.code();
+        !(Self::ALONE && Self::bounded(code)) || self.settled(code)
+    }
+
     /// Whether nothing fires at once by itself.
     pub(super) fn settled(&self, code: &Code<'_, W>) -> bool {
         if code.rests(&self.marking) {
@@ -61,6 +67,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
                 self.fire_alone(&entry, None, None, carries, observer);
                 fired = fired.saturating_add(1);
             }
+            debug_assert!(self.settled_if_proven(), "it settles within the steps that are proven");
             return fired;
         }
         self.settle_nets(kinds, observer)
@@ -95,6 +102,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
             self.fire_alone(entry, None, None, M::default(), observer);
             return Some(0);
         }
+        debug_assert!(usize::from(entry.clock) < code.clocks.len(), "it waited for an instant");
         let at = code.clocks.get(usize::from(entry.clock))?.entry;
         self.fire_whole(at, observer)
     }

@@ -78,7 +78,7 @@ pub struct Snapshot<const W: usize, const C: usize = 0, const S: usize = 0, M = 
     pub marking: [u64; W],
     /// For each transition with an interval, how long it has been enabled, in milliseconds.
     pub clocks: [u32; C],
-    /// What the waiting events carry along. Slots of which nothing waits may hold anything.
+    /// The payloads of the waiting events. Slots of which nothing waits may hold anything.
     pub slots: [M; S],
 }
 
@@ -95,7 +95,7 @@ pub struct Snapshot<const W: usize, const C: usize = 0, const S: usize = 0, M = 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum RestoreError {
-    /// It is of another system, or of another version of this one.
+    /// The state is of another system, or of another version of this one.
     OtherSystem {
         /// The fingerprint of this system.
         expected: u64,
@@ -105,7 +105,7 @@ pub enum RestoreError {
     /// A place holds more than its bound, a place and its complement do not hold the bound
     /// together, or bits are set where no place or clock is.
     Marking,
-    /// It breaks a law of a component: the component, and the position of the law in
+    /// The marking breaks a law of a component: the component, and the position of the law in
     /// [`Net::laws`](crate::net::Net::laws).
     Law(u16, usize),
     /// A clock runs that cannot, or longer than it can; of this transition.
@@ -262,7 +262,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
                 return Err(RestoreError::Clock(code.transition(number)));
             }
         }
-        // What waits for room in a mailbox may be enabled, where there are mailboxes.
+        // A transition that waits for room in a mailbox may be enabled, where there are mailboxes.
         if S > 0 || player.settled(code) { Ok(player) } else { Err(RestoreError::NotSettled) }
     }
 
@@ -304,7 +304,7 @@ mod tests {
     use std::string::ToString;
 
     #[test]
-    fn a_refusal_says_what_is_wrong_with_a_stored_marking() {
+    fn a_refusal_names_the_defect_of_a_stored_marking() {
         let said = |it: RestoreError, text: &str| assert_eq!(it.to_string(), text);
         said(
             RestoreError::OtherSystem { expected: 0xab, found: 1 << 60 },

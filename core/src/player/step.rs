@@ -67,6 +67,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         let mut step = Stepped { ignored: ones(events.len()), ..Stepped::default() };
         for at in (0..usize::MAX).map_while(|at| self.program.ordered(at)) {
             let Some(entry) = code.entries.get(usize::from(at)) else { continue };
+            debug_assert!(self.fits(&left), "what is left was there");
             if self.takes_part(code, entry, &left, events) {
                 (left, given) = self.applied(entry, &left, &given);
                 // Tested one by one: the sum of many gifts could outgrow a field and disturb
@@ -108,6 +109,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
                 program: &self.program,
             });
         }
+        debug_assert!(again == (left, given), "what fires is what was looked at");
         // `code` borrows the program: clocks are told once it is not needed any more.
         self.restart(&left);
         self.marking = after;
@@ -130,7 +132,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
             || events.iter().any(|event| is_on(code, entry, event))
     }
 
-    /// What is left and what is given after one more transition.
+    /// Returns the tokens left and the tokens given after one more transition.
     fn applied(&self, entry: &Entry<W>, left: &[u64; W], given: &[u64; W]) -> ([u64; W], [u64; W]) {
         let take = self.program.takes(entry.transition);
         (minus(left, &take), plus(&plus(given, &entry.delta), &take))

@@ -1,4 +1,4 @@
-//! What a problem says of itself is what its tables say.
+//! The figures that a problem reports are those of its tables.
 
 use super::*;
 use crate::proofs::few;

@@ -1,4 +1,4 @@
-//! Parts of the language `system!`: how links deliver, and laws.
+//! Parts of the language `system!`: how links deliver, laws, mistakes.
 
 /// When a link delivers.
 #[doc(hidden)]
@@ -47,4 +47,30 @@ macro_rules! __system_claim {
             "`; there are `handles(all)` and `left_to_checker`"
         ))
     };
+}
+
+/// Names what is wrong with a definition that cannot be read: its sections.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __system_mistake {
+    (
+        $system:ident
+        nets $nets:tt
+        $(links $links:tt)?
+        $(shared $shared:tt)?
+        $(pending $pending:tt)?
+        $(clears $clears:tt)?
+        $(laws $laws:tt)?
+    ) => {};
+    ($system:ident $( $section:ident { $($in:tt)* } )*) => {
+        compile_error!(concat!(
+            "system `",
+            stringify!($system),
+            "`: its sections are ",
+            $("`", stringify!($section), "`, ",)*
+            "and they come in this order, each once: `nets`, `links`, `shared`, `pending`, ",
+            "`clears` and `laws`; `nets` must be there"
+        ));
+    };
+    ($($other:tt)*) => {};
 }

@@ -42,11 +42,11 @@ use crate::net::data::{EventId, Net, OutputId, PlaceId};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct System<'s> {
-    /// Its name.
+    /// Name of the system.
     pub name: &'s str,
-    /// What it is for.
+    /// Purpose of the system.
     pub doc: &'s str,
-    /// Its nets, in the order of their turns.
+    /// The nets, in the order of their turns.
     pub components: &'s [Component<'s>],
     /// Which output causes which event.
     pub links: &'s [Link],
@@ -59,7 +59,7 @@ pub struct System<'s> {
 /// A net with its name in a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Component<'s> {
-    /// Its name.
+    /// Name of the component.
     pub name: &'s str,
     /// The net.
     pub net: &'s Net<'s>,
@@ -128,7 +128,9 @@ pub struct Link {
 /// let press = mail::Event::bell(bell::Event::press);
 /// assert!(mail.offer(Millis(0), &press).fired());
 /// assert_eq!(mail::state::dog(&mail), dog::State::Asleep); // its mail waits for its turn
-/// assert!(matches!(mail.offer(Millis(1), &press), Outcome::Refused { .. })); // there is no room
+/// let refused = mail.offer(Millis(1), &press); // there is no room
+/// assert!(matches!(refused, Outcome::Refused { .. }));
+/// assert_eq!(format!("{refused:?}"), "Refused { full: dog.heard }");
 /// # }
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -152,7 +154,7 @@ pub struct Binding {
     pub target: Target,
 }
 
-/// What a shared place stands for.
+/// The target of a shared place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
     /// A place, flag or counter of another component.
@@ -231,7 +233,7 @@ impl<'s> System<'s> {
         None
     }
 
-    /// What a shared place is bound to.
+    /// Returns the target that a shared place is bound to.
     pub const fn target(&self, shared: Of<PlaceId>) -> Option<Target> {
         let mut at = 0;
         while at < self.bindings.len() {

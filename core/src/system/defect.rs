@@ -4,25 +4,25 @@
 use super::data::{Binding, Clear, DEPTH, Delivery, Link, Of, System, Target};
 use super::index::{Index, key, position};
 use crate::net::data::{PlaceId, Role, TransitionId};
-use crate::net::defect::Defect;
+use crate::net::defect::NetError;
 use core::fmt;
 
-/// What is wrong with a [`System`].
+/// A defect of a [`System`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum SystemDefect {
+pub enum SystemError {
     /// A net is not sound.
     Net {
-        /// Which component.
+        /// Position of the component.
         component: u16,
-        /// What is wrong with its net.
-        defect: Defect,
+        /// The defect of the net.
+        defect: NetError,
     },
     /// A link, binding or clear at this position names something that is not there.
     UnknownId {
         /// In which list: links, bindings or clears.
         list: &'static str,
-        /// Its position.
+        /// Position of the entry.
         at: usize,
     },
     /// The lists are longer than 65,534.
@@ -51,7 +51,7 @@ pub enum SystemDefect {
     Overfills(Of<TransitionId>),
 }
 
-impl fmt::Display for SystemDefect {
+impl fmt::Display for SystemError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Net { component, defect } => write!(f, "net {component} is not sound: {defect}"),
@@ -97,12 +97,12 @@ impl fmt::Display for SystemDefect {
     }
 }
 
-impl core::error::Error for SystemDefect {}
+impl core::error::Error for SystemError {}
 
 impl System<'_> {
-    /// What is wrong with it, if anything. Its nets are taken to be sound.
+    /// Returns the first defect of the system, or `None`. Its nets are taken to be sound.
     #[cfg(feature = "alloc")]
-    pub fn defect(&self) -> Option<SystemDefect> {
+    pub fn defect(&self) -> Option<SystemError> {
         use alloc::vec;
         self.defect_by(&mut Index {
             links: &mut vec![(0, 0); self.links.len()],
@@ -113,13 +113,13 @@ impl System<'_> {
     }
 
     /// The same while compiling.
-    pub(super) const fn defect_by(&self, index: &mut Index<'_>) -> Option<SystemDefect> {
+    pub(super) const fn defect_by(&self, index: &mut Index<'_>) -> Option<SystemError> {
         if self.is_alone() {
             return None;
         }
         let most = u16::MAX as usize - 1;
         if self.components.len() > most || self.links.len() > most || self.bindings.len() > most {
-            return Some(SystemDefect::TooLong);
+            return Some(SystemError::TooLong);
         }
         index.fill(self);
         // One after the other: later ones rely on what earlier ones have found to be there.
@@ -144,14 +144,14 @@ impl System<'_> {
         self.circle(index.chains)
     }
 
-    const fn link_defect(&self, index: &Index<'_>) -> Option<SystemDefect> {
+    const fn link_defect(&self, index: &Index<'_>) -> Option<SystemError> {
         let mut at = 0;
         while at < self.links.len() {
             let Link { from, to, delivery } = self.links[at];
             let net = self.net(from.component);
             let known = matches!(net, Some(net) if (from.id.0 as usize) < net.outputs.len());
             if !known || !self.has_event(to) {
-                return Some(SystemDefect::UnknownId { list: "links", at });
+                return Some(SystemError::UnknownId { list: "links", at });
             }
             let same = match (index.delivery(self, to), delivery) {
                 (Some(Delivery::Now), Delivery::Now) => true,
@@ -161,27 +161,27 @@ impl System<'_> {
                 _ => false,
             };
             if !same {
-                return Some(SystemDefect::Delivery { at });
+                return Some(SystemError::Delivery { at });
             }
             at += 1;
         }
         None
     }
 
-    const fn clear_defect(&self, index: &Index<'_>) -> Option<SystemDefect> {
+    const fn clear_defect(&self, index: &Index<'_>) -> Option<SystemError> {
         let mut at = 0;
         while at < self.clears.len() {
             let Clear { on, mailbox } = self.clears[at];
             let mailbox = Of { component: on.component, id: mailbox };
             if !self.has_event(on) || index.mailbox(self, mailbox).is_none() {
-                return Some(SystemDefect::UnknownId { list: "clears", at });
+                return Some(SystemError::UnknownId { list: "clears", at });
             }
             at += 1;
         }
         None
     }
 
-    const fn binding_defect(&self, index: &Index<'_>) -> Option<SystemDefect> {
+    const fn binding_defect(&self, index: &Index<'_>) -> Option<SystemError> {
         let mut at = 0;
         while at < self.bindings.len() {
             let Binding { shared, target } = self.bindings[at];
@@ -193,26 +193,26 @@ impl System<'_> {
                         _ => it.bound,
                     }
                 }
-                Target::Place(_) => return Some(SystemDefect::UnknownId { list: "bindings", at }),
+                Target::Place(_) => return Some(SystemError::UnknownId { list: "bindings", at }),
                 Target::Mailbox(event) => match index.mailbox(self, event) {
                     Some(capacity) => capacity as u32,
-                    None => return Some(SystemDefect::UnknownId { list: "bindings", at }),
+                    None => return Some(SystemError::UnknownId { list: "bindings", at }),
                 },
             };
             if !self.has_place(shared) {
-                return Some(SystemDefect::UnknownId { list: "bindings", at });
+                return Some(SystemError::UnknownId { list: "bindings", at });
             }
             let place = self.place(shared);
             let once = matches!(index.binding(shared), Some(first) if first == at);
             if !once || bound != place.bound || !matches!(place.role, Role::Shared) {
-                return Some(SystemDefect::Binding { at });
+                return Some(SystemError::Binding { at });
             }
             at += 1;
         }
         None
     }
 
-    const fn unbound(&self, index: &Index<'_>) -> Option<SystemDefect> {
+    const fn unbound(&self, index: &Index<'_>) -> Option<SystemError> {
         let mut component = 0;
         while component < self.components.len() {
             let places = self.components[component].net.places;
@@ -220,7 +220,7 @@ impl System<'_> {
             while place < places.len() {
                 let of = Of { component: component as u16, id: PlaceId(place as u32) };
                 if matches!(places[place].role, Role::Shared) && index.binding(of).is_none() {
-                    return Some(SystemDefect::Unbound(of));
+                    return Some(SystemError::Unbound(of));
                 }
                 place += 1;
             }
@@ -230,7 +230,7 @@ impl System<'_> {
     }
 
     /// A transition that would change a mailbox through a shared place.
-    const fn changed_mailbox(&self, index: &Index<'_>) -> Option<SystemDefect> {
+    const fn changed_mailbox(&self, index: &Index<'_>) -> Option<SystemError> {
         let mut component = 0;
         while component < self.components.len() {
             let net = self.components[component].net;
@@ -250,7 +250,7 @@ impl System<'_> {
                         && let Target::Mailbox(_) = self.bindings[binding].target
                     {
                         let id = TransitionId(at as u32);
-                        return Some(SystemDefect::ChangesMailbox(Of { component, id }));
+                        return Some(SystemError::ChangesMailbox(Of { component, id }));
                     }
                     arc += 1;
                 }
@@ -262,7 +262,7 @@ impl System<'_> {
     }
 
     /// A transition that mails more to one event at once than there is room for.
-    const fn overfilled(&self, index: &Index<'_>) -> Option<SystemDefect> {
+    const fn overfilled(&self, index: &Index<'_>) -> Option<SystemError> {
         let mut link = 0;
         while link < index.says.len() {
             let Link { from: Of { component, .. }, .. } = self.links[index.says[link].1 as usize];
@@ -271,7 +271,7 @@ impl System<'_> {
             while at < transitions.len() {
                 let from = Of { component, id: TransitionId(at as u32) };
                 if self.overfills(index, from) {
-                    return Some(SystemDefect::Overfills(from));
+                    return Some(SystemError::Overfills(from));
                 }
                 at += 1;
             }
@@ -304,7 +304,7 @@ impl System<'_> {
 
     /// A rendezvous that comes back to where it began, or goes on too long. In each round every
     /// link is followed once, so after [`DEPTH`] rounds each chain of so many links is found.
-    const fn circle(&self, chains: &mut [u8]) -> Option<SystemDefect> {
+    const fn circle(&self, chains: &mut [u8]) -> Option<SystemError> {
         let mut round = 0;
         while round < DEPTH {
             let mut at = 0;
@@ -323,7 +323,7 @@ impl System<'_> {
         let mut component = 0;
         while component < chains.len() {
             if chains[component] as usize == DEPTH {
-                return Some(SystemDefect::Circle { component: component as u16 });
+                return Some(SystemError::Circle { component: component as u16 });
             }
             component += 1;
         }

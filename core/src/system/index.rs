@@ -13,11 +13,11 @@ pub(super) const fn key(component: u16, id: u32) -> u64 {
 /// Finds the links to an event, those from an output, and the bindings of a place. Its memory is
 /// as long as the lists of the system.
 pub(super) struct Index<'i> {
-    /// As many as links.
+    /// Entries by event: as many as links.
     pub(super) links: &'i mut [Entry],
-    /// As many as links.
+    /// Entries by output: as many as links.
     pub(super) says: &'i mut [Entry],
-    /// As many as bindings.
+    /// Entries by shared place: as many as bindings.
     pub(super) bindings: &'i mut [Entry],
     /// As many as components: how many rendezvous can follow from one another.
     pub(super) chains: &'i mut [u8],
@@ -114,7 +114,7 @@ const fn less(a: Entry, b: Entry) -> bool {
     a.0 < b.0 || a.0 == b.0 && a.1 < b.1
 }
 
-/// Where this key begins, or would stand.
+/// Returns the position of this key, or the one at which it would be inserted.
 pub(super) const fn position(sorted: &[Entry], key: u64) -> usize {
     let (mut from, mut to) = (0, sorted.len());
     while from < to {

@@ -49,80 +49,11 @@
 /// }
 /// ```
 ///
-/// # The sections
-///
-/// | section | item | meaning |
-/// | --- | --- | --- |
-/// | `nets` | `gs: global`, `pf: nets::path` | a net by its module, in the order of turns |
-/// | `links` | `gs.start => ls.start mail 1;` | an output waits in a mailbox for the turn of `ls` |
-/// | | `gs.abort => ls.abort & es.abort now;` | a rendezvous, here with two nets: a broadcast |
-/// | `shared` | `ls.camera & cs.camera = env.camera;` | the owner of a shared place |
-/// | `pending` | `ls.report_pending = cs.report;` | a shared place, marked while something waits |
-/// | `clears` | `ls.abort empties ls.start & ls.local;` | an event that empties mailboxes |
-/// | `laws` | `handles(all);` | whatever is delivered to a net is used, or ignored on purpose |
-/// | | `left_to_checker;` | the laws are for the model checker; nothing is explored |
+#[doc = include_str!("sections.md")]
 ///
 #[doc = include_str!("laws/law.md")]
 ///
-/// # A system with more
-///
-/// `extends` makes a system that is another one with more nets, links and shared places. `instead`
-/// comes first and puts another net where one stands; `nets before lamp { … }` adds nets that take
-/// their turns before `lamp`, and `nets` adds more behind all. The rest is as for
-/// [`net!`](crate::net!#a-net-with-more).
-///
-/// ```
-/// use cotama_core::{net, system};
-///
-/// net! {
-///     pub mod button {
-///         places { Free: 1 }
-///         events { press }
-///         outputs { pressed }
-///         transitions { press on press: Free => Free emit pressed; }
-///     }
-/// }
-/// net! {
-///     pub mod lamp {
-///         places { Off: 1, On }
-///         events { toggle }
-///         transitions { on on toggle: Off => On; off on toggle: On => Off; }
-///     }
-/// }
-/// net! {
-///     pub mod dimmer extends lamp {
-///         places { Dim }
-///         instead { on on toggle: Off => Dim; }
-///         transitions { bright on toggle: Dim => On; }
-///     }
-/// }
-/// const PRESSES: u16 = 2;
-/// system! {
-///     pub mod room {
-///         nets { button: button, lamp: lamp }
-///         links { button.pressed => lamp.toggle mail PRESSES; }
-///     }
-/// }
-/// system! {
-///     pub mod hall extends room {
-///         instead { lamp: dimmer }
-///         nets before lamp { other: button }
-///         links { other.pressed => lamp.toggle mail PRESSES; }
-///     }
-/// }
-///
-/// fn main() {
-///     assert_eq!(hall::SYSTEM.components[2].net.name, "dimmer");
-///     assert_eq!(hall::SYSTEM.links.len(), 2);
-/// }
-/// ```
-///
-/// # What it makes
-///
-/// A module with `SYSTEM` (the plain data), `SIZE`, `EXPLORED`, the enums `Event`, `Place`,
-/// `Output` and `Transition` with a variant for each net, the functions `state::NET`, the types
-/// `Program`, `Player` and `Checked`, and the type `Carrying<M>`: a player whose events carry `M`
-/// along.
+#[doc = include_str!("extends.md")]
 #[macro_export]
 macro_rules! system {
     (
@@ -209,7 +140,7 @@ macro_rules! system {
                 { $( $( $law $(( $($law_of)* ))?; )* )? }
             }
 
-            /// Its nets, as types: a module in a function does not see what stands beside it.
+            /// The nets, as types: a module in a function does not see its siblings.
             #[doc(hidden)]
             #[allow(missing_docs, non_camel_case_types)]
             pub mod parts {
@@ -247,10 +178,10 @@ macro_rules! system {
                     { SYSTEM.bindings.len() },
                     { COMPONENTS.len() },
                 >(&SYSTEM);
-                system_code::size_of(&SYSTEM)
+                $crate::player::pack::size_of(&SYSTEM)
             };
             // A static: of a constant each crate that uses it may keep a copy.
-            static ARRAYS: system_code::Arrays<
+            static ARRAYS: $crate::player::Arrays<
                 { SIZE.words },
                 { SIZE.entries },
                 { SIZE.takes },
@@ -267,7 +198,7 @@ macro_rules! system {
                 { SIZE.ignored_where },
                 { SIZE.kept },
                 { SIZE.summands },
-            > = system_code::Arrays::of(&SYSTEM);
+            > = $crate::player::Arrays::of(&SYSTEM);
             static CODE: system_code::Code<'static, { SIZE.words }> =
                 ARRAYS.code($crate::player::SETTLE, false);
 
@@ -314,7 +245,7 @@ macro_rules! system {
                 }
             }
 
-            /// What one of the nets says.
+            /// The outputs that one of the nets emits.
             #[allow(missing_docs, non_camel_case_types, dead_code)]
             #[derive(Clone, Copy, Debug, PartialEq, Eq)]
             pub enum Output { $( $component(<parts::$component as Part>::Output), )* }
@@ -326,6 +257,15 @@ macro_rules! system {
 
             $crate::__logged_parts! {
                 Event Place Output Transition => { $( $component )* }
+            }
+
+            impl $crate::player::EventNames for Transition {
+                fn event(
+                    event: $crate::system::Of<$crate::net::EventId>,
+                    f: &mut ::core::fmt::Formatter<'_>,
+                ) -> ::core::fmt::Result {
+                    <Self as $crate::player::EventNames>::event_of(&SYSTEM, event, f)
+                }
             }
 
             /// The system as a player runs it; no bytes.
@@ -450,5 +390,10 @@ macro_rules! system {
             { $(@ $export)? $(#[doc = $doc])* $vis mod $name }
             $base $(:: $base_in)* { $($more)* }
         }
+    };
+    // A definition that cannot be read: the cure, and the compiler's own words at the token.
+    ($(@ macro_export)? $(#[doc = $doc:expr])* $vis:vis mod $name:ident { $($body:tt)* }) => {
+        $crate::__system_mistake! { $name $($body)* }
+        $crate::system! { @unread $(#[doc = $doc])* $vis mod $name { $($body)* } }
     };
 }

@@ -22,5 +22,5 @@ pub(crate) mod source;
 mod tests;
 
 pub use data::{Binding, Clear, Component, DEPTH, Delivery, Link, Of, System, Target};
-pub use defect::SystemDefect;
+pub use defect::SystemError;
 pub use laws::{Culprit, STATES, Step, Violation, judge};

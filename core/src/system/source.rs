@@ -1,7 +1,7 @@
 //! Names of a system, looked up while compiling: what `system!` writes.
 
 use super::data::{Binding, Clear, Component, Delivery, Link, Of, System, Target};
-use super::defect::SystemDefect;
+use super::defect::SystemError;
 use super::index::Index;
 use crate::net::text::{Text, distance, same};
 use crate::net::{EventId, OutputId, PlaceId, Signal, TransitionId};
@@ -117,8 +117,8 @@ const fn place(system: &str, components: &[Component<'_>], port: Port<'_>) -> Of
     near.stop(says(system, "shared", port), net.name, "place")
 }
 
-/// Where `system!` keeps what it read. It is implemented outside of the module that `system!`
-/// makes, so that nets can be those of an enclosing function.
+/// The source that `system!` keeps. It is implemented outside of the module that `system!` makes,
+/// so that nets can be those of an enclosing function.
 pub trait Written {
     /// `nets`.
     const COMPONENTS: &'static [Component<'static>];
@@ -310,28 +310,28 @@ pub const fn check<const L: usize, const B: usize, const N: usize>(system: &Syst
     let Some(defect) = system.defect_by(&mut index) else { return };
     let text = Text::new().with("system ").name(system.name).with(": ");
     match defect {
-        SystemDefect::Net { .. } => text.with("one of its nets is not sound").stop(),
-        SystemDefect::UnknownId { list, at } => text
+        SystemError::Net { .. } => text.with("one of its nets is not sound").stop(),
+        SystemError::UnknownId { list, at } => text
             .with("number ")
             .number(at as u64 + 1)
             .with(" of the ")
             .with(list)
             .with(" names a mailbox of an event that does not arrive by mail")
             .stop(),
-        SystemDefect::TooLong => text.with("it is too large").stop(),
-        SystemDefect::Unbound(place) => {
+        SystemError::TooLong => text.with("it is too large").stop(),
+        SystemError::Unbound(place) => {
             let text = named(text.with("the shared place "), system, place);
             named(text.with(" belongs to nobody: say whose it is, as `shared { "), system, place)
                 .with(" = owner.place; }`")
                 .stop()
         }
-        SystemDefect::Binding { at } => {
+        SystemError::Binding { at } => {
             named(text.with("the shared place "), system, system.bindings[at].shared)
                 .with(" is bound twice, or is no shared place, or to a place of another bound, ")
                 .with("or to a place that is shared itself")
                 .stop()
         }
-        SystemDefect::Delivery { at } => {
+        SystemError::Delivery { at } => {
             let to = system.links[at].to;
             let component = &system.components[to.component as usize];
             text.with("the links to ")
@@ -341,15 +341,15 @@ pub const fn check<const L: usize, const B: usize, const N: usize>(system: &Syst
                 .with(" differ in how they deliver, or its mailbox has no room")
                 .stop()
         }
-        SystemDefect::Circle { component } => text
+        SystemError::Circle { component } => text
             .with("`now` links lead from ")
             .name(system.components[component as usize].name)
             .with(" back to it, or on over more than 8 nets; use mail for one of them")
             .stop(),
-        SystemDefect::ChangesMailbox(of) => line(text, system, of)
+        SystemError::ChangesMailbox(of) => line(text, system, of)
             .with(" changes a shared place that is a mailbox; it can only be read")
             .stop(),
-        SystemDefect::Overfills(of) => line(text, system, of)
+        SystemError::Overfills(of) => line(text, system, of)
             .with(" mails more at once than a mailbox holds, so it could never fire; ")
             .with("give the mailbox more room")
             .stop(),

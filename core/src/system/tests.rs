@@ -1,7 +1,7 @@
 //! Stories of systems that fit together, or do not.
 
 use super::{
-    Binding, Clear, Component, Culprit, Delivery, Link, Of, Step, System, SystemDefect, Target,
+    Binding, Clear, Component, Culprit, Delivery, Link, Of, Step, System, SystemError, Target,
     judge,
 };
 use crate::net::owned::{
@@ -88,7 +88,7 @@ fn a_link_from_a_net_that_is_not_there_is_said() {
     for from in [2, 3, u16::MAX] {
         let links = [link(0, 1, 0, Delivery::Now), link(from, 1, 1, Delivery::Now)];
         let defect = linked(&components, &links).defect();
-        assert_eq!(defect, Some(SystemDefect::UnknownId { list: "links", at: 1 }));
+        assert_eq!(defect, Some(SystemError::UnknownId { list: "links", at: 1 }));
     }
 }
 
@@ -97,17 +97,14 @@ fn a_chain_of_eight_rendezvous_is_too_long_and_one_of_seven_is_not() {
     let components = relays(9);
     let chain = |count| (0..count).map(|at| link(at, at + 1, 0, Delivery::Now)).collect::<Vec<_>>();
     assert_eq!(linked(&components, &chain(7)).defect(), None);
-    assert_eq!(
-        linked(&components, &chain(8)).defect(),
-        Some(SystemDefect::Circle { component: 0 })
-    );
+    assert_eq!(linked(&components, &chain(8)).defect(), Some(SystemError::Circle { component: 0 }));
     let mut back = chain(7);
     back.push(link(3, 2, 1, Delivery::Now));
     let defect = linked(&components, &back).defect();
-    assert_eq!(defect, Some(SystemDefect::Circle { component: 0 }));
+    assert_eq!(defect, Some(SystemError::Circle { component: 0 }));
     back[0].delivery = Delivery::Mail { capacity: 1 };
     let defect = linked(&components, &back).defect();
-    assert_eq!(defect, Some(SystemDefect::Circle { component: 1 }));
+    assert_eq!(defect, Some(SystemError::Circle { component: 1 }));
     assert!(defect.unwrap().to_string().starts_with("rendezvous lead from net 1 back to it"));
 }
 
@@ -118,12 +115,12 @@ fn more_than_65_534_parts_of_a_kind_are_too_many() {
     // So many are looked at, and one link is there twice.
     let twice = linked(&pair, &links(65_534)).defect();
     assert_eq!(twice, linked(&pair, &links(2)).defect());
-    assert_eq!(linked(&pair, &links(65_535)).defect(), Some(SystemDefect::TooLong));
-    assert_eq!(linked(&relays(65_535), &[]).defect(), Some(SystemDefect::TooLong));
+    assert_eq!(linked(&pair, &links(65_535)).defect(), Some(SystemError::TooLong));
+    assert_eq!(linked(&relays(65_535), &[]).defect(), Some(SystemError::TooLong));
     let bound = Binding { shared: of(0, PlaceId(0)), target: Target::Place(of(1, PlaceId(0))) };
     let bindings = std::vec![bound; 65_535];
     let bound = System { bindings: &bindings, ..linked(&pair, &[]) };
-    assert_eq!(bound.defect(), Some(SystemDefect::TooLong));
+    assert_eq!(bound.defect(), Some(SystemError::TooLong));
 }
 
 /// A system of 65,000 links and as many places is looked through in less than a minute, which a
@@ -161,23 +158,23 @@ fn large_systems_are_looked_through_at_once() {
     };
     assert_eq!(whole.defect(), None);
     let unbound = System { bindings: &bindings[1..], ..whole };
-    assert_eq!(unbound.defect(), Some(SystemDefect::Unbound(of(0, PlaceId(64_999)))));
+    assert_eq!(unbound.defect(), Some(SystemError::Unbound(of(0, PlaceId(64_999)))));
     let unsent = System { links: &links[..64_000], ..whole };
-    assert_eq!(unsent.defect(), Some(SystemDefect::UnknownId { list: "clears", at: 0 }));
+    assert_eq!(unsent.defect(), Some(SystemError::UnknownId { list: "clears", at: 0 }));
 
     let mut other = links.clone();
     (other[3].to, other[3].delivery) = (links[2].to, Delivery::Now);
     let differ = System { links: &other, ..whole };
-    assert_eq!(differ.defect(), Some(SystemDefect::Delivery { at: 3 }));
+    assert_eq!(differ.defect(), Some(SystemError::Delivery { at: 3 }));
     let mut other = bindings.clone();
     other[7].shared = bindings[6].shared;
     let twice = System { bindings: &other, ..whole };
-    assert_eq!(twice.defect(), Some(SystemDefect::Binding { at: 7 }));
+    assert_eq!(twice.defect(), Some(SystemError::Binding { at: 7 }));
     other[7] = bindings[7];
     other[5].target = Target::Mailbox(of(0, EventId(64_994)));
     let changed = System { bindings: &other, ..whole };
     let transition = of(0, TransitionId(64_994));
-    assert_eq!(changed.defect(), Some(SystemDefect::ChangesMailbox(transition)));
+    assert_eq!(changed.defect(), Some(SystemError::ChangesMailbox(transition)));
 }
 
 /// Two at once fit into a mailbox of two, not into one of one.
@@ -198,7 +195,7 @@ fn a_transition_that_mails_more_than_fits_is_a_defect() {
     };
     assert_eq!(linked(&components, &links(2)).defect(), None);
     let defect = linked(&components, &links(1)).defect();
-    assert_eq!(defect, Some(SystemDefect::Overfills(of(1, TransitionId(1)))));
+    assert_eq!(defect, Some(SystemError::Overfills(of(1, TransitionId(1)))));
 }
 
 /// A net of so many places, transitions, events, and events ignored.
@@ -219,7 +216,7 @@ fn fits(net: &OwnedNet) -> bool {
 
 /// Each list of a packed system has up to 65,534 entries.
 #[test]
-fn what_fits_into_a_packed_system_and_what_is_one_too_many() {
+fn a_packed_system_holds_its_limits_and_not_one_more() {
     assert!(fits(&sized(65_534, 0, 1, 0)) && !fits(&sized(65_535, 0, 1, 0)));
     assert!(fits(&sized(1, 65_534, 1, 0)) && !fits(&sized(1, 65_535, 1, 0)));
     assert!(fits(&sized(1, 0, 1, 65_534)) && !fits(&sized(1, 0, 1, 65_535)));
@@ -235,7 +232,7 @@ fn what_fits_into_a_packed_system_and_what_is_one_too_many() {
         fits(&net)
     };
     assert!(summed(25_534) && !summed(25_535));
-    // What waits in all mailboxes together, and where outputs go to.
+    // The most events that wait in all mailboxes together, and the destinations of outputs.
     let pair = relays(2);
     let mails = |capacities: &[u16]| {
         let mail = |(signal, &capacity)| link(0, 1, signal, Delivery::Mail { capacity });
@@ -251,7 +248,7 @@ fn what_fits_into_a_packed_system_and_what_is_one_too_many() {
     assert!(routes(65_534) && !routes(65_535));
 }
 
-/// What goes on by rendezvous over five nets is forgotten by the sixth.
+/// An event that goes on by rendezvous over five nets is forgotten by the sixth.
 #[test]
 fn an_event_is_followed_over_six_nets() {
     let mut end = OwnedNet::new("end", "");

@@ -17,7 +17,7 @@ pub(super) mod sealed {
     /// Amounts are twice what they stand for, and a column that somebody has counts one more: so of
     /// columns that are equally near the least is a free one.
     pub trait Arithmetic: Sized {
-        /// Nothing.
+        /// The amount 0.
         const ZERO: Self;
         /// One half.
         const HALF: Self;

@@ -21,7 +21,7 @@ pub(super) const MANY: usize = 64;
 
 /// Why there is no assignment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unassigned {
+pub enum AssignmentError {
     /// Some rows have, all together, fewer columns than they are (P. Hall, *On representatives of
     /// subsets*, 1935); [`Memory::in_conflict`] tells which, [`conflict`](super::conflict)
     /// counts again.
@@ -37,7 +37,7 @@ pub enum Unassigned {
     Memory(MemoryError),
 }
 
-impl core::fmt::Display for Unassigned {
+impl core::fmt::Display for AssignmentError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Infeasible { rows, columns } => {
@@ -49,9 +49,9 @@ impl core::fmt::Display for Unassigned {
     }
 }
 
-impl core::error::Error for Unassigned {}
+impl core::error::Error for AssignmentError {}
 
-impl From<MemoryError> for Unassigned {
+impl From<MemoryError> for AssignmentError {
     fn from(error: MemoryError) -> Self {
         Self::Memory(error)
     }
@@ -62,7 +62,7 @@ impl From<MemoryError> for Unassigned {
 /// over. The same table gives the same assignment.
 ///
 /// ```
-/// use cotama_core::team::{Cost, Costs, Fixed, Unassigned, assign, is_least};
+/// use cotama_core::team::{Cost, Costs, Fixed, AssignmentError, assign, is_least};
 /// let entries = [Cost::new(9), None, Cost::new(2), Cost::new(8), Cost::new(7), Cost::new(2)];
 /// let table = Costs::new(&entries, 3).unwrap();
 /// let mut fixed = Fixed::<i32, 2, 3>::new();
@@ -71,14 +71,18 @@ impl From<MemoryError> for Unassigned {
 /// assert_eq!(is_least(&table, |row| memory.column(row), |column| memory.price(column)), Ok(9));
 ///
 /// let cheap = table.at_most(Cost::new(5).unwrap()); // both need the last column
-/// assert_eq!(assign(&cheap, &mut memory), Err(Unassigned::Infeasible { rows: 2, columns: 1 }));
+/// let conflict = AssignmentError::Infeasible { rows: 2, columns: 1 };
+/// assert_eq!(assign(&cheap, &mut memory), Err(conflict));
 /// ```
 ///
 /// # Errors
-/// [`Unassigned`]: some rows are in conflict, the amounts are too narrow, or memory lacks.
+/// [`AssignmentError`]: some rows are in conflict, the amounts are too narrow, or memory lacks.
 #[inline]
-pub fn assign<N: Amount>(costs: &Costs<'_>, memory: &mut Memory<'_, N>) -> Result<u64, Unassigned> {
-    // Where the compiler knows the memory, as of `Fixed`, a program has the code that it needs.
+pub fn assign<N: Amount>(
+    costs: &Costs<'_>,
+    memory: &mut Memory<'_, N>,
+) -> Result<u64, AssignmentError> {
+    // A program has only the code it needs if the compiler knows the memory, as of `Fixed`.
     if memory.size().0 < MANY {
         assign_sized::<N, false>(costs, memory)
     } else {
@@ -90,7 +94,7 @@ pub fn assign<N: Amount>(costs: &Costs<'_>, memory: &mut Memory<'_, N>) -> Resul
 fn assign_sized<N: Amount, const LARGE: bool>(
     costs: &Costs<'_>,
     memory: &mut Memory<'_, N>,
-) -> Result<u64, Unassigned> {
+) -> Result<u64, AssignmentError> {
     let mut work = Work::start(costs, memory)?;
     work.memory.conflict.fill(0);
     if costs.rows() > costs.columns() {
@@ -113,7 +117,7 @@ impl<'w, N: Amount> Work<'w, N> {
     pub(super) fn start(
         costs: &'w Costs<'w>,
         memory: &'w mut Memory<'_, N>,
-    ) -> Result<Self, Unassigned> {
+    ) -> Result<Self, AssignmentError> {
         let (rows, columns) = memory.size();
         enough("assignment", costs.rows(), rows)?;
         enough("assignment", costs.columns(), columns)?;
@@ -122,12 +126,12 @@ impl<'w, N: Amount> Work<'w, N> {
         if N::room_for(costs.most()) {
             Ok(Self { costs, memory })
         } else {
-            Err(Unassigned::TooLarge)
+            Err(AssignmentError::TooLarge)
         }
     }
 
     /// Assigns each row a column at the least total. Tables of [`MANY`] rows are `LARGE`.
-    pub(super) fn assign<const LARGE: bool>(&mut self) -> Result<u64, Unassigned> {
+    pub(super) fn assign<const LARGE: bool>(&mut self) -> Result<u64, AssignmentError> {
         let costs = self.costs;
         if costs.rows() == costs.columns() {
             self.reduce_columns()?;
@@ -149,6 +153,11 @@ impl<'w, N: Amount> Work<'w, N> {
     /// The sum of the costs.
     fn total(&self) -> u64 {
         let cost = |row| self.memory.column(row).and_then(|it| self.costs.cost(row, it));
+        let mut rows = 0..self.costs.rows();
+        debug_assert!(
+            rows.all(|row| cost(row).is_some()),
+            "each row has a column that it can have"
+        );
         let costs = (0..self.costs.rows()).map(|row| u64::from(cost(row).map_or(0, Cost::get)));
         costs.fold(0, u64::saturating_add)
     }
@@ -164,10 +173,11 @@ impl<'w, N: Amount> Work<'w, N> {
         &mut self,
         column: usize,
         by: impl FnOnce(N) -> N,
-    ) -> Result<(), Unassigned> {
+    ) -> Result<(), AssignmentError> {
+        debug_assert!(column < self.costs.columns(), "a column of the table");
         let Some(price) = self.memory.prices.get_mut(column) else { return Ok(()) };
         *price = by(*price);
-        if *price > N::ZERO.minus(N::ROOM) { Ok(()) } else { Err(Unassigned::TooLarge) }
+        if *price > N::ZERO.minus(N::ROOM) { Ok(()) } else { Err(AssignmentError::TooLarge) }
     }
 
     /// A row at the current prices.
@@ -178,7 +188,7 @@ impl<'w, N: Amount> Work<'w, N> {
     /// The reduction of columns: each costs what it costs its cheapest row, and that row has it
     /// unless it has another. Only where each column is needed, as these prices are above 0. Then
     /// each of these rows lowers the price of its column by what the second one is worse.
-    fn reduce_columns(&mut self) -> Result<(), Unassigned> {
+    fn reduce_columns(&mut self) -> Result<(), AssignmentError> {
         let Memory { prices, before, done, .. } = &mut self.memory;
         done.fill(0); // what each column costs its cheapest row, as that is stored
         for row in 0..self.costs.rows() {
@@ -196,6 +206,7 @@ impl<'w, N: Amount> Work<'w, N> {
                 self.reprice(column, |_| N::ZERO)?;
                 continue;
             }
+            debug_assert!((row as usize) < self.costs.rows(), "a row of the table");
             if let Some(it) = self.memory.done.get_mut(row as usize) {
                 *it = it.wrapping_add(1);
             }
@@ -221,7 +232,7 @@ impl<'w, N: Amount> Work<'w, N> {
     /// The reduction of rows, once: a row takes the column that is nearest, and lowers its price by
     /// as much as the second one is further, which may push another row out. Where a row has one
     /// column only nothing tells what that is worth, and the rest is left to the paths.
-    fn reduce_rows(&mut self) -> Result<(), Unassigned> {
+    fn reduce_rows(&mut self) -> Result<(), AssignmentError> {
         let mut steps = self.costs.rows().saturating_mul(4);
         for row in 0..self.costs.rows() {
             let mut open = row;
@@ -243,7 +254,7 @@ impl<'w, N: Amount> Work<'w, N> {
                     let Some(left) = level.checked_sub(1) else { break };
                     level = left;
                 }
-                // Of equal ones the first that is free, or the next one that is not.
+                // Among equal columns the first free one is taken, or the next one that is not.
                 let behind = if free { usize::MAX } else { lost };
                 let column = column.unwrap_or_else(|| self.row(open).next_equal(away, behind));
                 lost = column;
@@ -260,7 +271,7 @@ impl<'w, N: Amount> Work<'w, N> {
     }
 
     /// A shortest path of exchanges from a row without a column to a column without a row.
-    pub(super) fn grow(&mut self, from: u32) -> Result<(), Unassigned> {
+    pub(super) fn grow(&mut self, from: u32) -> Result<(), AssignmentError> {
         self.memory.distances.fill(N::FAR);
         let nearest = self.reach(from as usize, N::ZERO);
         self.grow_on(from, 0, nearest)
@@ -274,13 +285,14 @@ impl<'w, N: Amount> Work<'w, N> {
         reach(&by, self.memory.distances, self.memory.before)
     }
 
-    /// What it costs to come to the row that has a column to which it costs so much.
-    pub(super) fn base(&self, row: usize, column: usize, away: N) -> Result<N, Unassigned> {
+    /// Returns the cost to come to the row that has a column to which it costs so much.
+    pub(super) fn base(&self, row: usize, column: usize, away: N) -> Result<N, AssignmentError> {
         // The row gives this column back, and what it pays for it.
+        debug_assert!(self.entry(row, column).is_some(), "a row has a column that it can have");
         let own = N::twice(self.entry(row, column), 1).unwrap_or(N::ZERO);
         let price = self.memory.prices.get(column).copied().unwrap_or(N::ZERO);
         let base = away.minus(own.minus(price));
-        if base < N::ROOM.plus(N::ROOM) { Ok(base) } else { Err(Unassigned::TooLarge) }
+        if base < N::ROOM.plus(N::ROOM) { Ok(base) } else { Err(AssignmentError::TooLarge) }
     }
 
     /// The rest of a shortest path when so many columns are done.
@@ -289,12 +301,13 @@ impl<'w, N: Amount> Work<'w, N> {
         from: u32,
         mut met: usize,
         (mut away, mut column): (N, usize),
-    ) -> Result<(), Unassigned> {
+    ) -> Result<(), AssignmentError> {
         let (end, length) = loop {
             if away == N::FAR {
                 return Err(self.conflict(from as usize, met));
             }
             let Some(next) = self.memory.row(column) else { break (column, away) };
+            debug_assert!(met < self.costs.columns(), "each column is done once");
             self.settle(column, met, away);
             let base = self.base(next, column, away)?;
             (away, column) = self.reach(next, base);
@@ -309,7 +322,7 @@ impl<'w, N: Amount> Work<'w, N> {
             }
         }
         if lowest <= N::ZERO.minus(N::ROOM) {
-            return Err(Unassigned::TooLarge);
+            return Err(AssignmentError::TooLarge);
         }
         self.reprice(end, |it| it.minus(N::HALF))?;
         self.exchange(from, end, met);
@@ -329,16 +342,18 @@ impl<'w, N: Amount> Work<'w, N> {
     }
 
     /// There are more rows than columns.
-    pub(super) fn all_in_conflict(&mut self) -> Unassigned {
+    pub(super) fn all_in_conflict(&mut self) -> AssignmentError {
         self.memory.conflict.fill(1);
         let (rows, columns) = conflict(self.costs, |_| true);
-        Unassigned::Infeasible { rows, columns }
+        AssignmentError::Infeasible { rows, columns }
     }
 
     /// Along a path over so many columns that somebody has, each row takes the next column.
     pub(super) fn exchange(&mut self, from: u32, end: usize, over: usize) {
+        debug_assert!(over < self.costs.rows(), "a row has one column at most");
         let mut column = end;
         for _ in 0..=over {
+            debug_assert!(column < self.costs.columns(), "a column of the table");
             let Some(row) = self.memory.before.get(column).copied() else { return };
             let next = self.memory.column(row as usize);
             self.give(row, column);
@@ -349,14 +364,15 @@ impl<'w, N: Amount> Work<'w, N> {
 
     /// The rows that have the first `met` columns done, and the one that finds no other, are in
     /// conflict.
-    pub(super) fn conflict(&mut self, from: usize, met: usize) -> Unassigned {
+    pub(super) fn conflict(&mut self, from: usize, met: usize) -> AssignmentError {
         let Memory { row_of, conflict, done, .. } = &mut self.memory;
         conflict.fill(0);
+        debug_assert!(met <= done.len() && from < conflict.len(), "rows and columns of the table");
         let rows = done.iter().take(met).filter_map(|it| row_of.get(*it as usize));
         for row in rows.filter_map(|it| it.checked_sub(1)).chain([from as u32]) {
             put(conflict, row as usize, 1);
         }
-        Unassigned::Infeasible { rows: met.saturating_add(1), columns: met }
+        AssignmentError::Infeasible { rows: met.saturating_add(1), columns: met }
     }
 
     /// Prices of columns that are all needed may be above 0: all fall alike until none is.

@@ -7,7 +7,7 @@
 //! they have fewer columns than they are.
 
 use super::amount::Amount;
-use super::assignment::{MANY, Unassigned, Work};
+use super::assignment::{AssignmentError, MANY, Work};
 use super::cost::{Cost, Costs};
 use super::memory::Memory;
 use super::scan::{Reach, Row, reach};
@@ -46,7 +46,7 @@ pub struct Bottleneck {
 pub fn bottleneck<N: Amount>(
     costs: &Costs<'_>,
     memory: &mut Memory<'_, N>,
-) -> Result<Bottleneck, Unassigned> {
+) -> Result<Bottleneck, AssignmentError> {
     // As an assignment has it.
     if memory.size().0 < MANY {
         bottleneck_sized::<N, false>(costs, memory)
@@ -59,7 +59,7 @@ pub fn bottleneck<N: Amount>(
 fn bottleneck_sized<N: Amount, const LARGE: bool>(
     costs: &Costs<'_>,
     memory: &mut Memory<'_, N>,
-) -> Result<Bottleneck, Unassigned> {
+) -> Result<Bottleneck, AssignmentError> {
     let mut work = Work::start(costs, memory)?;
     work.memory.conflict.fill(0);
     if costs.rows() > costs.columns() {
@@ -76,7 +76,7 @@ fn bottleneck_sized<N: Amount, const LARGE: bool>(
 
 impl<N: Amount> Work<'_, N> {
     /// A row joins along a path whose dearest edge is as cheap as can be. Prices are 0 all along.
-    fn widen(&mut self, from: u32, largest: &mut Option<Cost>) -> Result<(), Unassigned> {
+    fn widen(&mut self, from: u32, largest: &mut Option<Cost>) -> Result<(), AssignmentError> {
         self.memory.distances.fill(N::FAR);
         let (mut row, mut met) = (from, 0_usize);
         let end = loop {
@@ -88,6 +88,7 @@ impl<N: Amount> Work<'_, N> {
             }
             let before = self.memory.before.get(column).copied().unwrap_or(from);
             let cost = self.entry(before as usize, column);
+            debug_assert!(cost.is_some(), "a path leads to a column that its row can have");
             if cost > *largest {
                 // With less than this the rows met so far come no further.
                 self.conflict(from as usize, met);

@@ -5,7 +5,7 @@
 //! the largest takes a bottleneck assignment, for which the least sum would be wrong.
 
 use super::amount::Amount;
-use super::assignment::{Unassigned, assign};
+use super::assignment::{AssignmentError, assign};
 use super::bottleneck::bottleneck;
 use super::cost::Costs;
 use super::memory::Memory;
@@ -14,9 +14,9 @@ use super::task::{Combine, Plan, Task};
 /// The best plan of a task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Coalition {
-    /// Its number among the plans of the task.
+    /// Number of the plan among those of the task.
     pub plan: usize,
-    /// What the task costs, in parts of a unit.
+    /// Cost of the task, in parts of a unit.
     pub cost: u64,
 }
 
@@ -39,14 +39,14 @@ pub struct Coalition {
 /// ```
 ///
 /// # Errors
-/// [`Unassigned`]: that of the last plan, where none can be carried out.
+/// [`AssignmentError`]: that of the last plan, where none can be carried out.
 pub fn coalition<N: Amount>(
     task: &Task<'_>,
     denominator: u32,
     memory: &mut Memory<'_, N>,
-) -> Result<Coalition, Unassigned> {
+) -> Result<Coalition, AssignmentError> {
     let mut best: Option<Coalition> = None;
-    let mut failed = Unassigned::Infeasible { rows: 0, columns: 0 };
+    let mut failed = AssignmentError::Infeasible { rows: 0, columns: 0 };
     let mut solved = None;
     let roles = |plan: usize| task.plans.get(plan).map_or(usize::MAX, |it| it.roles.rows());
     for number in 0..task.plans.len() {
@@ -65,11 +65,12 @@ pub fn coalition<N: Amount>(
                     best = Some(Coalition { plan: number, cost });
                 }
             }
-            Err(error @ Unassigned::Infeasible { .. }) => failed = error,
+            Err(error @ AssignmentError::Infeasible { .. }) => failed = error,
             Err(error) => return Err(error),
         }
     }
     let Some(found) = best else { return Err(failed) };
+    debug_assert!(found.plan < task.plans.len(), "a plan of the task");
     if solved != Some(found.plan)
         && let Some(plan) = task.plans.get(found.plan)
     {
@@ -84,7 +85,7 @@ fn staff<N: Amount>(
     plan: &Plan<'_>,
     denominator: u32,
     memory: &mut Memory<'_, N>,
-) -> Result<u64, Unassigned> {
+) -> Result<u64, AssignmentError> {
     match task.combine {
         Combine::Sum | Combine::Mean => _ = assign(&plan.roles, memory)?,
         Combine::Max => _ = bottleneck(&plan.roles, memory)?,
@@ -92,7 +93,7 @@ fn staff<N: Amount>(
     Ok(staffed(task, plan, denominator, |role| memory.column(role)))
 }
 
-/// What a plan costs with these robots in its roles.
+/// Returns the cost of a plan with these robots in its roles.
 fn staffed(
     task: &Task<'_>,
     plan: &Plan<'_>,
@@ -100,7 +101,9 @@ fn staffed(
     robot: impl Fn(usize) -> Option<usize>,
 ) -> u64 {
     let roles: &Costs<'_> = &plan.roles;
-    let costs = (0..roles.rows()).filter_map(|role| roles.cost(role, robot(role)?));
+    let cost = |role| roles.cost(role, robot(role)?);
+    debug_assert!((0..roles.rows()).all(|role| cost(role).is_some()), "each role has a robot");
+    let costs = (0..roles.rows()).filter_map(cost);
     task.cost(plan, denominator, costs)
 }
 

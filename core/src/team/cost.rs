@@ -1,4 +1,4 @@
-//! What it costs that somebody does something.
+//! Costs of a robot in a role.
 
 use core::num::NonZeroI32;
 
@@ -18,7 +18,7 @@ pub struct Cost(NonZeroI32);
 impl Cost {
     /// The largest cost: 2,147,483,645.
     pub const MOST: u32 = Self::TOP as u32 - 1;
-    /// What a cost of 0 is stored as: there is one more, as a limit that nothing meets.
+    /// The stored form of cost 0: there is one more, as a limit that nothing meets.
     const TOP: i32 = i32::MAX - 1;
 
     /// The cost of this number, unless that is above [`Cost::MOST`].
@@ -29,13 +29,14 @@ impl Cost {
         if number > Self::MOST {
             return None;
         }
+        debug_assert!(number.cast_signed() < Self::TOP, "the stored form is not 0");
         match NonZeroI32::new(Self::TOP.wrapping_sub(number.cast_signed())) {
             Some(it) => Some(Self(it)),
             None => None,
         }
     }
 
-    /// Its number.
+    /// Returns the cost as a number.
     pub const fn get(self) -> u32 {
         Self::number(self.0.get()).cast_unsigned()
     }
@@ -46,7 +47,7 @@ impl Cost {
         Self::TOP.wrapping_sub(stored)
     }
 
-    /// What is stored as this; none for 0.
+    /// Returns the cost stored as this number; `None` for 0.
     #[inline]
     pub(super) const fn from_stored(stored: u32) -> Option<Self> {
         match NonZeroI32::new(stored.cast_signed()) {
@@ -55,7 +56,7 @@ impl Cost {
         }
     }
 
-    /// What an entry is stored as; 0 for what is missing.
+    /// Returns the stored form of an entry; 0 for a missing one.
     #[inline]
     pub(super) const fn upside_down(entry: Option<Self>) -> i32 {
         match entry {
@@ -129,6 +130,7 @@ impl<'a> Costs<'a> {
 
     fn stored_from(self, least: i32) -> Self {
         let least = least.max(self.least);
+        debug_assert!(least >= 1, "what is missing is stored as 0 and does not count");
         let lacks_any = self.lacks_any || self.lowest < least;
         Self { least, lowest: self.lowest.max(least).min(Cost::TOP), lacks_any, ..self }
     }
@@ -148,12 +150,13 @@ impl<'a> Costs<'a> {
         self.entries.len().checked_div(self.columns).unwrap_or(0)
     }
 
-    /// How many columns.
+    /// Returns the number of columns.
     pub const fn columns(&self) -> usize {
         self.columns
     }
 
-    /// What a column costs for a row; none where it is missing, or there is no such place.
+    /// Returns the cost of a column for a row; `None` where it is missing, or there is no such
+    /// place.
     pub fn cost(&self, row: usize, column: usize) -> Option<Cost> {
         let entry = self.entries(row).get(column).copied().flatten();
         entry.filter(|it| it.0.get() >= self.least)

@@ -7,11 +7,11 @@
 //! shortest path.
 
 use super::amount::Amount;
-use super::assignment::{Unassigned, Work};
+use super::assignment::{AssignmentError, Work};
 use super::memory::{Memory, number, put};
 use super::scan::Row;
 
-/// Of so many rows one may be left without a column for all others to be noted beforehand.
+/// Limit of noting beforehand: one of so many rows may be left without a column.
 const FEW: usize = 16;
 
 impl<N: Amount> Work<'_, N> {
@@ -47,7 +47,7 @@ impl<N: Amount> Work<'_, N> {
 
     /// Whether a row has joined along columns that are each as near as the nearest to the row that
     /// takes it.
-    pub(super) fn join(&mut self, from: u32) -> Result<bool, Unassigned> {
+    pub(super) fn join(&mut self, from: u32) -> Result<bool, AssignmentError> {
         let away = self.row(from as usize).two_nearest().away;
         if away == N::FAR {
             return Ok(false);
@@ -100,14 +100,15 @@ impl<N: Amount> Work<'_, N> {
         }
     }
 
-    /// Where the columns that are met, all so far away, do not suffice: the rest of a shortest path
-    /// if few others are left, which is all that their rows are asked for. Whether few are left.
-    fn join_beyond(&mut self, from: u32, away: N, met: usize) -> Result<bool, Unassigned> {
+    /// Completes the columns that are met, all so far away, by the rest of a shortest path if few
+    /// others are left. Returns whether few are left.
+    fn join_beyond(&mut self, from: u32, away: N, met: usize) -> Result<bool, AssignmentError> {
         let columns = self.costs.columns();
         if columns.saturating_sub(met) > columns / 2 {
             return Ok(false);
         }
         self.memory.distances.fill(N::FAR);
+        debug_assert!(met <= columns, "a column is met once");
         for at in 0..met {
             let column = self.memory.done.get(at).copied().unwrap_or(0);
             self.settle(column as usize, at, away.plus(N::HALF));

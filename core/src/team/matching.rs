@@ -5,14 +5,14 @@
 //! columns that do not suffice takes several times as long as to count them.
 
 use super::amount::Amount;
-use super::assignment::{Unassigned, Work};
+use super::assignment::{AssignmentError, Work};
 use super::cost::Cost;
 use super::memory::{Memory, put};
 use super::scan::present;
 
 impl<N: Amount> Work<'_, N> {
     /// Refuses rows that are in conflict, where edges are missing.
-    pub(super) fn can_all_have_one(&mut self) -> Result<(), Unassigned> {
+    pub(super) fn can_all_have_one(&mut self) -> Result<(), AssignmentError> {
         if !self.costs.lacks_any() {
             return Ok(());
         }
@@ -22,7 +22,7 @@ impl<N: Amount> Work<'_, N> {
         }
         self.list_columns();
         let mut taken = 0_usize;
-        // Who has few columns chooses first, and seldom has to ask another row for one.
+        // A row with few columns chooses first, and seldom has to ask another row for one.
         for size in 0..=bits(self.costs.columns() as u32) {
             for row in 0..self.costs.rows() {
                 if self.memory.conflict.get(row) == Some(&size)
@@ -46,11 +46,11 @@ impl<N: Amount> Work<'_, N> {
     }
 
     /// A shortest path of exchanges from a row to a free column.
-    fn match_row(&mut self, from: u32) -> Result<(), Unassigned> {
+    fn match_row(&mut self, from: u32) -> Result<(), AssignmentError> {
         self.list_columns();
         let (mut row, mut met, mut looked) = (from, 0_usize, 0_usize);
         loop {
-            // Those between were looked at, and changed places with those that are met.
+            // Columns in between were examined, and changed places with those that are met.
             let mut behind = met;
             while let Some((column, at)) = self.next(row as usize, behind) {
                 put(self.memory.before, column, row);
@@ -108,6 +108,7 @@ impl<N: Amount> Work<'_, N> {
 
     /// The column listed here is the next that is met.
     fn meet(&mut self, at: usize, met: usize) {
+        debug_assert!(met <= at && at < self.memory.done.len(), "a column is met once");
         if at < self.memory.done.len() && met < self.memory.done.len() {
             self.memory.done.swap(at, met);
         }

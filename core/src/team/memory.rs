@@ -125,15 +125,16 @@ impl<'m, N: Amount> Memory<'m, N> {
     }
 
     /// Whether a row is one of those in conflict, after
-    /// [`Infeasible`](super::Unassigned::Infeasible) or a bottleneck.
+    /// [`Infeasible`](super::AssignmentError::Infeasible) or a bottleneck.
     pub fn in_conflict(&self, row: usize) -> bool {
         self.conflict.get(row).is_some_and(|it| *it & 1 != 0)
     }
 }
 
-/// Writes at a place, if there is one.
+/// Writes at a place.
 #[inline]
 pub(super) fn put<T>(list: &mut [T], at: usize, it: T) {
+    debug_assert!(at < list.len(), "a place of the list");
     if let Some(place) = list.get_mut(at) {
         *place = it;
     }

@@ -1,12 +1,11 @@
-//! Who does what in a team of robots (F. Rohrmueller, *Cooperative Action Selection*, dissertation,
-//! TU München 2011, ch. 3), at the least cost, with what proves it.
+//! Winner determination in a team of robots, at the least cost, with its proof (F. Rohrmueller,
+//! *Cooperative Action Selection*, dissertation, TU München 2011, ch. 3).
 //!
 //! - [`assign`]: rows to columns at the least sum, as roles to robots; who cannot has no cost,
 //!   which is a type; [`is_least`] proves an answer by its prices, [`conflict`] that there is none
 //! - [`bottleneck`]: the largest cost as small as can be, then the least sum
 //! - [`coalition`]: one task with several plans of several roles
-//! - [`joint`]: all tasks at once, within a step budget, with a true bound
-//! - [`thesis`]: what the thesis does, for comparison
+//! - [`winners`]: winner determination for all tasks, within a step budget, with a true bound
 
 mod amount;
 mod assignment;
@@ -14,7 +13,6 @@ mod bottleneck;
 mod coalition;
 mod cost;
 mod equality;
-pub mod joint;
 mod matching;
 mod memory;
 mod problem;
@@ -23,14 +21,14 @@ mod proof;
 pub mod proofs;
 mod scan;
 mod task;
-pub mod thesis;
+pub mod winners;
 
 pub use amount::Amount;
-pub use assignment::{Unassigned, assign};
+pub use assignment::{AssignmentError, assign};
 pub use bottleneck::{Bottleneck, bottleneck};
 pub use coalition::{Coalition, coalition};
 pub use cost::{Cost, Costs};
 pub use memory::{Fixed, Memory};
 pub use problem::{RobotSet, Team, TeamError};
-pub use proof::{Flaw, conflict, is_least};
+pub use proof::{ProofError, conflict, is_least};
 pub use task::{Combine, Plan, Task};

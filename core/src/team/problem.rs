@@ -18,6 +18,7 @@ pub struct Team<'a> {
 
 /// Why the parts make no team.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum TeamError {
     /// There are more robots than [`Team::MAX_ROBOTS`].
     TooManyRobots,

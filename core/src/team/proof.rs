@@ -4,7 +4,8 @@ use super::cost::{Cost, Costs};
 
 /// Why prices do not prove an assignment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Flaw {
+#[non_exhaustive]
+pub enum ProofError {
     /// This row has no column, or one that it cannot have.
     NoColumn {
         /// The row.
@@ -29,7 +30,7 @@ pub enum Flaw {
     },
 }
 
-impl core::fmt::Display for Flaw {
+impl core::fmt::Display for ProofError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::NoColumn { row } => write!(f, "row {row} has no column that it can have"),
@@ -44,7 +45,7 @@ impl core::fmt::Display for Flaw {
     }
 }
 
-impl core::error::Error for Flaw {}
+impl core::error::Error for ProofError {}
 
 /// Proves that no assignment of these costs has a smaller total than this one, which is returned.
 ///
@@ -54,35 +55,35 @@ impl core::error::Error for Flaw {}
 /// what the assignment costs (duality of linear programming). In time rows × columns, and rows².
 ///
 /// ```
-/// use cotama_core::team::{Cost, Costs, Flaw, is_least};
+/// use cotama_core::team::{Cost, Costs, ProofError, is_least};
 /// let entries = [1, 5, 1, 3].map(Cost::new);
 /// let table = Costs::new(&entries, 2).unwrap();
 /// let (other, prices) = ([1, 0], [-2, 0]);
 /// assert_eq!(is_least(&table, |row| Some(row), |column| prices[column]), Ok(4));
-/// let better = Flaw::Better { row: 0, column: 0 };
+/// let better = ProofError::Better { row: 0, column: 0 };
 /// assert_eq!(is_least(&table, |row| Some(other[row]), |column| prices[column]), Err(better));
 /// ```
 ///
 /// # Errors
-/// The first [`Flaw`].
+/// The first [`ProofError`].
 pub fn is_least(
     costs: &Costs<'_>,
     column_of: impl Fn(usize) -> Option<usize>,
     price_of: impl Fn(usize) -> i64,
-) -> Result<u64, Flaw> {
+) -> Result<u64, ProofError> {
     let mut total = 0_u64;
     for row in 0..costs.rows() {
         let own = column_of(row).and_then(|it| Some((it, costs.cost(row, it)?)));
-        let Some((column, cost)) = own else { return Err(Flaw::NoColumn { row }) };
+        let Some((column, cost)) = own else { return Err(ProofError::NoColumn { row }) };
         if (0..row).any(|before| column_of(before) == Some(column)) {
-            return Err(Flaw::Shared { column });
+            return Err(ProofError::Shared { column });
         }
         total = total.saturating_add(u64::from(cost.get()));
         let less = |cost: Cost, at| i64::from(cost.get()).saturating_sub(price_of(at));
         let own = less(cost, column);
         let better = |at: &usize| costs.cost(row, *at).is_some_and(|it| less(it, *at) < own);
         if let Some(column) = (0..costs.columns()).find(better) {
-            return Err(Flaw::Better { row, column });
+            return Err(ProofError::Better { row, column });
         }
     }
     let taken = |column| (0..costs.rows()).any(|row| column_of(row) == Some(column));
@@ -91,7 +92,7 @@ pub fn is_least(
         price => price > 0 || !taken(*column),
     };
     match (0..costs.columns()).find(wrong) {
-        Some(column) => Err(Flaw::Price { column }),
+        Some(column) => Err(ProofError::Price { column }),
         None => Ok(total),
     }
 }

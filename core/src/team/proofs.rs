@@ -41,7 +41,7 @@ pub fn a_cost_is_its_number() {
 /// the most.
 #[kani::proof]
 #[kani::unwind(7)]
-pub fn a_table_under_a_limit_has_what_is_within() {
+pub fn a_table_under_a_limit_has_the_costs_within() {
     let entries: [Option<Cost>; 6] = core::array::from_fn(|_| any_entry());
     let (limit, strict) = (u32::from(few::<1>()), kani::any());
     let (Some(all), Some(at)) = (Costs::new(&entries, 3), Cost::new(limit)) else { unreachable!() };
@@ -79,7 +79,7 @@ pub fn an_assignment_is_the_least_and_is_proven() {
             assert!(is_least(&costs, |it| memory.column(it), |it| memory.price(it)) == Ok(total));
             assert!((0..3).all(|it| memory.row(it).is_some_and(|r| memory.column(r) == Some(it))));
         }
-        Err(Unassigned::Infeasible { rows, columns }) => {
+        Err(AssignmentError::Infeasible { rows, columns }) => {
             assert!(least.is_none() && columns < rows);
             assert!(conflict(&costs, |it| memory.in_conflict(it)) == (rows, columns));
         }
@@ -130,8 +130,8 @@ pub fn shortest_paths_assign_the_least() {
     kani::cover!(grown.is_err(), "none");
 }
 
-/// What the checker of an assignment accepts is the cheapest of all, whoever made it and whatever
-/// its prices.
+/// An assignment that the checker accepts is the cheapest of all, whoever made it and whatever its
+/// prices.
 #[kani::proof]
 #[kani::unwind(7)]
 pub fn a_proof_that_is_accepted_is_true() {
@@ -144,7 +144,7 @@ pub fn a_proof_that_is_accepted_is_true() {
         assert!(chosen[0] != chosen[1] && totals(&costs).min() == Some(total));
     }
     kani::cover!(said.is_ok() && prices != [0; 3], "accepted for its prices");
-    kani::cover!(matches!(said, Err(Flaw::Price { .. })), "refused for its prices");
+    kani::cover!(matches!(said, Err(ProofError::Price { .. })), "refused for its prices");
 }
 
 /// The largest cost of a bottleneck assignment is the least possible, and so is its total among

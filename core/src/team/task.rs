@@ -17,9 +17,9 @@ pub enum Combine {
 /// One way to do a task: each role needs a robot of its own.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan<'a> {
-    /// What each robot costs in each role: roles are rows, robots are columns.
+    /// Cost of each robot in each role: roles are rows, robots are columns.
     pub roles: Costs<'a>,
-    /// What this plan yields less than the best plan of the task.
+    /// Yield that the plan lacks to the best plan of the task.
     pub extra: u32,
 }
 
@@ -27,7 +27,7 @@ pub struct Plan<'a> {
 /// with one role.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
-    /// What it costs to leave it undone; none where it must be done.
+    /// Cost of leaving the task undone; `None` where it must be done.
     pub skip: Option<Cost>,
     /// How costs of roles become one.
     pub combine: Combine,
@@ -36,7 +36,7 @@ pub struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// What one unit of a role's cost counts in a plan of so many roles, in parts of a unit.
+    /// Weight of one unit of a role's cost in the task's cost, in parts of a unit.
     pub(super) fn weight(&self, denominator: u32, roles: usize) -> u64 {
         match self.combine {
             Combine::Sum | Combine::Max => u64::from(denominator),
@@ -44,8 +44,8 @@ impl Task<'_> {
         }
     }
 
-    /// What the task costs by this plan, if its roles cost that much: in parts of a unit, of which
-    /// `denominator` make one. A mean is exact where the number of roles divides that.
+    /// Returns the cost of the task by this plan, given the costs of its roles: in parts of a unit,
+    /// of which `denominator` make one. A mean is exact where the number of roles divides that.
     pub fn cost(
         &self,
         plan: &Plan<'_>,

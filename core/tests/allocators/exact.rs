@@ -4,7 +4,7 @@ use crate::brute::every_plan;
 use crate::instances::{Draw, Instance, random_mission, small};
 use crate::solve::exact;
 use cotama_core::allocation::{Allocator, Answer, Shortfall};
-use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
+use cotama_core::exact::{Item, Objective, Seen, Stage, Workspace};
 use cotama_core::problem::{Candidate, Problem};
 
 /// Larger is better: the amount of each objective in a plan.
@@ -205,7 +205,7 @@ fn of_candidates_equal_in_every_number_the_first_written_is_taken() {
     }
 }
 
-/// Of two objectives the second is pursued with what the first has left.
+/// The second of two objectives is pursued with the resources that the first has left.
 #[test]
 fn at_every_step_budget_a_plan_is_called_best_only_where_it_is_best_in_both_objectives() {
     let objectives = [Objective::MostQuality, Objective::Least(0)];
@@ -246,11 +246,8 @@ fn a_plan_of_17_activities_keeps_its_promised_steps_and_bytes() {
         let instance = random_mission(seed);
         let slices = instance.slices();
         let problem = instance.problem(&slices);
-        let (mut items, mut stages) = (vec![Item::EMPTY; 17 * 21], vec![Stage::EMPTY; 17]);
-        let mut seen = vec![Seen::EMPTY; 4096];
-        let mut plan = [0; 17];
-        let mut exact = Exact::new(&[Objective::MostQuality], 100_000, &mut items, &mut stages)
-            .with_memory(&mut seen);
+        let (mut workspace, mut plan) = (Workspace::new(), [0; 17]);
+        let mut exact = workspace.exact(&problem, &[Objective::MostQuality], 100_000, 4096);
         let Ok(Answer::Planned(planned)) = exact.allocate(&problem, &mut plan) else {
             panic!("seed {seed}")
         };
@@ -261,8 +258,8 @@ fn a_plan_of_17_activities_keeps_its_promised_steps_and_bytes() {
         steps.push(planned.steps);
     }
     steps.sort_unstable();
-    // Of 10,000: proven best, the worst gap in permille, the median and the 90th percentile of the
-    // steps.
+    // Over 10,000 problems: proven best, the worst gap in permille, the median and the 90th
+    // percentile of the steps.
     assert_eq!((proven, worst_gap, steps[5_000], steps[9_000]), (9877, 25, 701, 8436));
 }
 
@@ -276,17 +273,15 @@ fn the_memory_for_17_activities_of_21_candidates_is_less_than_12_kib() {
 /// Nodes that are remembered save steps and never an answer: whatever the memory, what is proven
 /// best is the same.
 #[test]
-fn memory_for_nodes_does_not_change_what_is_proven() {
+fn memory_for_nodes_does_not_change_the_proof() {
     let (mut compared, mut spent) = (0, [0; 3]);
     for seed in 0..600 {
         let instance = random_mission(seed);
         let slices = instance.slices();
         let problem = instance.problem(&slices);
         let proven = |memory: usize| {
-            let (mut items, mut stages) = (vec![Item::EMPTY; 17 * 21], vec![Stage::EMPTY; 17]);
-            let (mut seen, mut plan) = (vec![Seen::EMPTY; memory], [0; 17]);
-            let mut exact = Exact::new(&[Objective::MostQuality], 300_000, &mut items, &mut stages)
-                .with_memory(&mut seen);
+            let (mut workspace, mut plan) = (Workspace::new(), [0; 17]);
+            let mut exact = workspace.exact(&problem, &[Objective::MostQuality], 300_000, memory);
             match exact.allocate(&problem, &mut plan) {
                 Ok(Answer::Planned(planned)) if planned.optimal => {
                     Some((planned.quality, planned.steps))

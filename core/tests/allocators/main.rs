@@ -4,10 +4,6 @@ mod brute;
 #[path = "../common/draw.rs"]
 #[allow(unreachable_pub)] // the tests across the crates read it too
 mod draw;
-mod effort;
-#[path = "../common/effort.rs"]
-#[allow(unreachable_pub)] // as above
-mod efforts;
 mod exact;
 mod front;
 #[allow(unreachable_pub)] // as above

@@ -1,7 +1,7 @@
 //! Both allocators behind one call each, with their memory.
 
 use cotama_core::allocation::{Allocator, Answer};
-use cotama_core::exact::{Exact, Item, Objective, Stage};
+use cotama_core::exact::{Objective, Workspace};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::Problem;
 
@@ -14,14 +14,10 @@ pub fn exact<const A: usize>(
     objectives: &[Objective],
     steps: u64,
 ) -> (Answer<A>, Vec<u16>) {
-    let count = problem.activities().iter().map(|c| c.len()).sum();
-    let (mut items, mut stages) =
-        (vec![Item::EMPTY; count], vec![Stage::EMPTY; problem.activities().len()]);
     let mut plan = vec![0; problem.activities().len()];
-    let answer = Exact::new(objectives, steps, &mut items, &mut stages)
-        .allocate(problem, &mut plan)
-        .unwrap();
-    (answer, plan)
+    let mut workspace = Workspace::new();
+    let answer = workspace.exact(problem, objectives, steps, 0).allocate(problem, &mut plan);
+    (answer.unwrap(), plan)
 }
 
 /// The plan of the paper's rule, if it finds one.

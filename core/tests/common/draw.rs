@@ -1,6 +1,10 @@
 //! Numbers for tests, of a seed or steered by bytes. Integers only, so that the same seed or bytes
 //! give the same on every machine.
 
+#[allow(unreachable_pub, reason = "the file is public where it is a crate's")]
+#[path = "../../../tests/fuzz/split_mix.rs"]
+mod split_mix;
+
 #[cfg(not(target_os = "none"))]
 use std::sync::Arc;
 
@@ -38,11 +42,7 @@ impl Draw {
         if let Some(given) = self.given(u64::MAX) {
             return given;
         }
-        self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
+        split_mix::split_mix(&mut self.state)
     }
 
     /// A number from `low` to `high`, both included.

@@ -80,11 +80,11 @@ fn walk<'n>(net: &Net<'_>, both: &Net<'n>, program: &Program<'n>, violation: &Vi
 const SHORT: usize = 200;
 
 #[test]
-fn laws_of_random_nets_say_what_the_player_does() {
+fn laws_of_random_nets_agree_with_the_player() {
     let mut random = Random(Draw::new(14));
     // How often each verdict was no and yes.
     let mut verdicts: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
-    // Those of `handles(all)` where an `ignore` has a guard.
+    // Counts of `handles(all)` where an `ignore` has a guard.
     let mut guarded = [0; 2];
     for number in 0..NETS {
         let owned = net(&mut random);

@@ -14,18 +14,18 @@ pub(crate) type Fired<'f, 'n> = Firing<'f, Program<'n>>;
 type Marking = Vec<u32>;
 type Key = ([u64; 1], [u32; CLOCKS]);
 
-/// What happens from one state at rest to the next one.
+/// The events from one state at rest to the next one.
 struct Move {
     to: usize,
-    /// What is marked on the way.
+    /// The markings on the way.
     passed: Vec<Marking>,
 }
 
 struct State {
     marking: Marking,
-    /// What each event does, those of other nets last.
+    /// The outcome of each event, those of other nets last.
     events: Vec<Option<Move>>,
-    /// What a millisecond does, and whether something fires in it.
+    /// The outcome of a millisecond, and whether something fires in it.
     time: Option<(Move, bool)>,
     /// Whether two transitions of one event are enabled.
     conflict: bool,
@@ -66,11 +66,11 @@ fn enabled(it: &Transition<'_>, marking: &Marking) -> bool {
     has(marking, it.take) && has(marking, it.read)
 }
 
-/// What was fired, once more by the book.
+/// The transitions fired, once more by the book.
 struct Replay<'r, 'n> {
     explored: &'r mut Explored<'n>,
     marking: Marking,
-    /// What is due now.
+    /// The transitions due now.
     due: HashSet<usize>,
     passed: Vec<Marking>,
     row: u32,
@@ -87,7 +87,7 @@ impl Replay<'_, '_> {
         all.filter(|(_, it)| it.on.is_none() && enabled(it, &self.marking))
     }
 
-    /// What became enabled, and is due at once.
+    /// Adds the transitions that became enabled and are due at once.
     fn begins(&mut self, left: Option<&Marking>) {
         let new = |it: &Transition<'_>| left.is_none_or(|left| !enabled(it, left));
         let now = |it: &Transition<'_>| it.within.is_some_and(|it| it.earliest == 0);
@@ -122,7 +122,7 @@ impl Replay<'_, '_> {
             return Err(Trouble::Bound);
         }
         self.begins(Some(&left));
-        // It has fired, so its clock starts anew.
+        // The transition has fired, so its clock starts anew.
         let now = it.on.is_none() && it.within.is_some_and(|it| it.earliest == 0);
         if now && enabled(&it, &self.marking) {
             self.due.insert(at);
@@ -208,7 +208,7 @@ impl<'n> Explored<'n> {
         (0..self.net.places.len() as u32).map(|at| player.tokens(PlaceId(at))).collect()
     }
 
-    /// What is due in a millisecond.
+    /// Returns the transitions due in a millisecond.
     fn due(&self, player: &Played<'_>, marking: &Marking) -> HashSet<usize> {
         let code = player.program().code();
         let clocks = player.snapshot().clocks;

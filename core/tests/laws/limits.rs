@@ -23,7 +23,7 @@ fn more_than_16_384_moves_are_too_many() {
     assert_eq!(verdict(&loops(16_379)), Err((Culprit::TooLarge(Limit::Parts), vec![])));
 }
 
-/// Where time is told apart, it is said.
+/// The message names the time where clocks tell markings apart.
 #[test]
 fn more_than_1_024_markings_are_too_many() {
     let counts = |most: u32, timer: bool| {

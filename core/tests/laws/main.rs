@@ -7,10 +7,6 @@ mod by_the_player;
 #[path = "../common/draw.rs"]
 #[allow(unreachable_pub)] // the tests across the crates read it too
 mod draw;
-mod effort;
-#[path = "../common/effort.rs"]
-#[allow(unreachable_pub)] // as above
-mod efforts;
 mod limits;
 mod missing;
 mod programs;

@@ -1,4 +1,4 @@
-//! What `handles(all)` says of 12,000 random nets that break it: the lines to paste make it hold.
+//! Advice of `handles(all)` on 12,000 random nets that break it: the lines to paste make it hold.
 
 use crate::draw::Draw;
 use crate::random::{Random, net};
@@ -8,7 +8,7 @@ use cotama_core::player::Packed;
 
 const NETS: usize = 12_000;
 
-/// What the compiler would say when a net forgets an event.
+/// Returns the compiler's message when a net forgets an event.
 fn said(owned: &OwnedNet) -> Option<String> {
     said_of::<1>(owned)
 }
@@ -54,7 +54,7 @@ fn pasted(owned: &OwnedNet, text: &str) -> Vec<OwnedIgnored> {
 }
 
 #[test]
-fn what_is_to_be_pasted_makes_random_nets_handle_all_events() {
+fn the_lines_to_paste_make_random_nets_handle_all_events() {
     let mut random = Random(Draw::new(25));
     let (mut several, mut one, mut nowhere, mut guarded) = (0, 0, 0, 0);
     for number in 0..NETS {
@@ -75,7 +75,7 @@ fn what_is_to_be_pasted_makes_random_nets_handle_all_events() {
         guarded += usize::from(pairs.iter().any(|it| !it.guard.is_empty()));
         owned.ignored.extend(pairs);
         if let Some(rest) = said(&owned) {
-            // What is left cannot be ignored.
+            // The remaining pairs cannot be ignored.
             assert!(text.contains("// no place is marked") || told.is_none(), "{number}: {text}");
             assert!(pasted(&owned, &rest).is_empty(), "{number}: {rest}");
             nowhere += 1;
@@ -85,8 +85,8 @@ fn what_is_to_be_pasted_makes_random_nets_handle_all_events() {
     assert!(guarded > 20, "{guarded}");
 }
 
-/// Of 35 places in each of which `go` is used while a flag is set, and forgotten otherwise, 32 are
-/// told with the flag; the rest without.
+/// `go` is used in each of 35 places while a flag is set, and forgotten otherwise: 32 are listed
+/// with the flag, the rest without.
 #[test]
 fn of_many_places_that_want_a_guard_the_first_32_are_told_with_it() {
     let places = 35;

@@ -34,7 +34,7 @@ pub(crate) fn step(name: &str, from: PlaceId, to: PlaceId) -> OwnedTransition {
     OwnedTransition::new(name).take(from, 1).give(to, 1)
 }
 
-/// What is wrong, and the way there.
+/// Returns the violation, and the path there.
 pub(crate) fn verdict(net: &OwnedNet) -> Result<Known, (Culprit, Vec<Step>)> {
     let view = net.view();
     let packed = Packed::<1, 9>::alone(&view.net()).unwrap();
@@ -176,7 +176,7 @@ fn timers_of_seconds_need_few_classes() {
 /// A job takes some time and is aborted every five seconds: whether it can end depends on when it
 /// was begun, so on a difference of two clocks.
 #[test]
-fn what_differences_of_clocks_decide_is_told_apart() {
+fn markings_that_differ_in_differences_of_clocks_are_told_apart() {
     let job = |long, aborts: &str| {
         let mut net = net(vec![], OwnedLaw::AlwaysCan(C));
         let waits = net.place(OwnedPlace::new("Waits", 1).at_most(1)).unwrap();
@@ -205,7 +205,7 @@ fn what_differences_of_clocks_decide_is_told_apart() {
 /// Two timers of five seconds tick at one instant always, or never: it depends on when the second
 /// one was begun, and nothing else tells the markings of the two apart.
 #[test]
-fn what_was_decided_long_ago_is_told_apart() {
+fn classes_that_an_early_choice_separates_are_told_apart() {
     let mut net = net(vec![], OwnedLaw::AlwaysCan(C));
     let mut place = |name, tokens| net.place(OwnedPlace::new(name, tokens).at_most(1)).unwrap();
     let (ticking, mark, ticked) = (place("Ticking", 1), place("Mark", 0), place("Ticked", 0));
@@ -271,7 +271,7 @@ fn the_seventieth_event_is_answered_or_not() {
 }
 
 #[test]
-fn what_comes_again_and_again_grows_and_what_came_once_does_not() {
+fn a_place_refilled_by_a_cycle_grows_and_one_filled_once_does_not() {
     let beyond = |refills: bool| {
         let mut net = OwnedNet::new("cups", "");
         for (name, tokens, most) in [("A", 2, 2), ("B", 0, 1)] {
@@ -288,7 +288,7 @@ fn what_comes_again_and_again_grows_and_what_came_once_does_not() {
     assert_eq!(beyond(false), (bound(false), vec![go; 2]));
 }
 
-/// What others do to the first place of all, or to its complement, is a step on the way.
+/// A change by other nets to the first place of all, or to its complement, is a step on the path.
 #[test]
 fn a_shared_place_or_its_complement_may_be_the_first_one() {
     for (flag, absent) in [(PlaceId(0), PlaceId(1)), (PlaceId(1), PlaceId(0))] {

@@ -4,7 +4,7 @@ use crate::draw::Draw;
 use cotama_core::net::owned::{OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Arc, EventId, PlaceId, Role};
 
-/// What a random net is made of.
+/// The source of random nets.
 pub(crate) struct Random(pub(crate) Draw);
 
 impl Random {

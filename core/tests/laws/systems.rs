@@ -7,7 +7,7 @@ use cotama_core::net::owned::{OwnedIgnored, OwnedNet, OwnedPlace, OwnedTransitio
 use cotama_core::net::{EventId, Net, OutputId, PlaceId, Role};
 use cotama_core::player::{Firing, Loaded, Observer, Packed, Player, Program as _, SETTLE};
 use cotama_core::system::{
-    Binding, Clear, Component, Culprit, Delivery, Link, Of, STATES, Step, System, SystemDefect,
+    Binding, Clear, Component, Culprit, Delivery, Link, Of, STATES, Step, System, SystemError,
     Target, judge,
 };
 use cotama_core::units::Millis;
@@ -28,7 +28,7 @@ fn of<T>(component: usize, id: T) -> Of<T> {
     Of { component: component as u16, id }
 }
 
-/// What a system is made of.
+/// The parts of a system.
 #[derive(Debug)]
 pub(crate) struct Parts {
     pub(crate) nets: Vec<OwnedNet>,
@@ -38,7 +38,7 @@ pub(crate) struct Parts {
 }
 
 impl Parts {
-    /// What the story says of the system of these parts.
+    /// Calls `story` with the system of these parts.
     pub(crate) fn with_system<R>(&self, story: impl FnOnce(&System<'_>) -> R) -> R {
         let views: Vec<_> = self.nets.iter().map(OwnedNet::view).collect();
         let nets: Vec<Net<'_>> = views.iter().map(|it| it.net()).collect();
@@ -192,7 +192,7 @@ fn transition(
     if urgent || random.chance(93) {
         it = it.take(PlaceId(taken), 1);
     }
-    // What fires by itself leads onward, or it would often do so for ever.
+    // A transition that fires by itself leads onward, or it would often do so for ever.
     let first = if urgent && random.chance(95) { taken + 1 } else { 0 };
     let mut given = vec![];
     for _ in 0..u32::from(random.chance(95)) + u32::from(random.chance(15)) {
@@ -223,7 +223,8 @@ fn transition(
     it
 }
 
-/// What a player tells, and the tokens of places that are not mailboxes, moved as it tells.
+/// The events reported by a player, and the tokens of places that are not mailboxes, moved as they
+/// say.
 struct Watch<'s> {
     system: System<'s>,
     tokens: Tokens,
@@ -249,7 +250,7 @@ impl<'s> Watch<'s> {
     }
 }
 
-/// Whose a place is; `None` for complements and mailboxes.
+/// Returns the owner of a place; `None` for complements and mailboxes.
 fn owner(system: &System<'_>, component: u16, id: PlaceId) -> Option<(u16, u32)> {
     let place = system.components[usize::from(component)].net.places[id.0 as usize];
     match (place.role, system.target(Of { component, id })) {
@@ -296,8 +297,8 @@ impl<'s> Observer<Program<'s>> for Watch<'s> {
     }
 }
 
-/// What is found by playing: in how many states the system rests, or what is wrong, the way there
-/// and the tokens there.
+/// The result of playing: in how many states the system rests, or the violation, the path there and
+/// the tokens there.
 type Found = Result<usize, (Culprit, Vec<Step>, Tokens)>;
 
 /// Plays everything that can happen, breadth first.
@@ -370,7 +371,7 @@ fn systems_handle_all_that_the_player_delivers() {
         parts.with_system(|system| {
             let packed = match Packed::<WORDS, 0, SLOTS>::of(system) {
                 Ok(packed) => packed,
-                Err(SystemDefect::Overfills(_)) => {
+                Err(SystemError::Overfills(_)) => {
                     count("never sound");
                     return;
                 }

@@ -3,7 +3,8 @@
 use crate::draw::Draw;
 use crate::tables::{below, least, table};
 use cotama_core::team::{
-    Amount, Cost, Costs, Fixed, Flaw, Memory, Unassigned, assign, bottleneck, conflict, is_least,
+    Amount, AssignmentError, Cost, Costs, Fixed, Memory, ProofError, assign, bottleneck, conflict,
+    is_least,
 };
 
 /// The answer for a table, proven by the prices or by the rows in conflict.
@@ -16,7 +17,7 @@ fn proven<N: Amount>(costs: &Costs<'_>, memory: &mut Memory<'_, N>) -> Option<u6
         }
         Err(error) => {
             let (rows, columns) = conflict(costs, |row| memory.in_conflict(row));
-            assert_eq!(error, Unassigned::Infeasible { rows, columns });
+            assert_eq!(error, AssignmentError::Infeasible { rows, columns });
             assert!(rows > columns);
             None
         }
@@ -55,7 +56,7 @@ fn a_bottleneck_is_the_least_of_all_and_rows_in_conflict_prove_it() {
         let found = bottleneck(&costs, &mut memory);
         let Some(largest) = least(&costs, u64::max) else {
             let (rows, columns) = conflict(&costs, |row| memory.in_conflict(row));
-            assert_eq!(found, Err(Unassigned::Infeasible { rows, columns }));
+            assert_eq!(found, Err(AssignmentError::Infeasible { rows, columns }));
             assert!(rows > columns);
             continue;
         };
@@ -190,7 +191,7 @@ fn too_large_for_half_the_width_is_said_and_the_whole_width_has_an_answer() {
     let entries = of([Some(Cost::MOST), Some(0), Some(Cost::MOST), Some(1)]);
     let costs = Costs::new(&entries, 2).unwrap();
     let mut narrow = Fixed::<i32, 2, 2>::new();
-    assert_eq!(assign(&costs, &mut narrow.memory()), Err(Unassigned::TooLarge));
+    assert_eq!(assign(&costs, &mut narrow.memory()), Err(AssignmentError::TooLarge));
     let total = u64::from(Cost::MOST);
     assert_eq!(proven(&costs, &mut Fixed::<i64, 2, 2>::new().memory()), Some(total));
 }
@@ -203,7 +204,7 @@ fn nothing_costs_nothing_and_memory_that_lacks_is_said() {
     assert_eq!(bottleneck(&none, &mut fixed.memory()).unwrap().largest, None);
     let entries = of([Some(1); 6]);
     let costs = Costs::new(&entries, 3).unwrap();
-    assert!(matches!(assign(&costs, &mut fixed.memory()), Err(Unassigned::Memory(_))));
+    assert!(matches!(assign(&costs, &mut fixed.memory()), Err(AssignmentError::Memory(_))));
 }
 
 #[test]
@@ -214,10 +215,10 @@ fn a_proof_that_is_none_is_refused() {
         is_least(&costs, |row| columns[row], |column| prices[column])
     };
     assert_eq!(check([Some(0), Some(1)], [-2, 0]), Ok(4));
-    assert_eq!(check([Some(0), None], [-2, 0]), Err(Flaw::NoColumn { row: 1 }));
-    assert_eq!(check([Some(0), Some(0)], [-2, 0]), Err(Flaw::Shared { column: 0 }));
-    assert_eq!(check([Some(0), Some(1)], [1, 3]), Err(Flaw::Price { column: 0 }));
-    assert_eq!(check([Some(0), Some(1)], [0, 0]), Err(Flaw::Better { row: 1, column: 0 }));
+    assert_eq!(check([Some(0), None], [-2, 0]), Err(ProofError::NoColumn { row: 1 }));
+    assert_eq!(check([Some(0), Some(0)], [-2, 0]), Err(ProofError::Shared { column: 0 }));
+    assert_eq!(check([Some(0), Some(1)], [1, 3]), Err(ProofError::Price { column: 0 }));
+    assert_eq!(check([Some(0), Some(1)], [0, 0]), Err(ProofError::Better { row: 1, column: 0 }));
 }
 
 #[test]
@@ -226,7 +227,7 @@ fn with_more_rows_than_columns_all_rows_are_in_conflict() {
     let costs = Costs::new(&entries, 2).unwrap();
     let mut fixed = Fixed::<i32, 3, 2>::new();
     let mut memory = fixed.memory();
-    let all = Err(Unassigned::Infeasible { rows: 3, columns: 2 });
+    let all = Err(AssignmentError::Infeasible { rows: 3, columns: 2 });
     assert_eq!(assign(&costs, &mut memory), all);
     assert!((0..3).all(|row| memory.in_conflict(row)));
     assert!(Costs::new(&entries[..5], 2).is_none());

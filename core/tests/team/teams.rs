@@ -1,7 +1,7 @@
 //! Random teams with tasks, owned; and all that they can do, by sets of robots.
 
 use crate::draw::Draw;
-use cotama_core::team::joint::{Column, Joint, JointMemory, Level, Open, Slot, Way};
+use cotama_core::team::winners::Winners;
 use cotama_core::team::{Combine, Cost, Costs, Plan, RobotSet, Task, Team};
 
 /// A plan: what is lost by it, and the costs of its roles, row after row.
@@ -39,41 +39,7 @@ impl OwnedTeam {
     }
 }
 
-/// Memory for a team.
-pub struct Room<const N: usize> {
-    roles: Vec<[i64; N]>,
-    ways: Vec<Way>,
-    slots: Vec<Slot>,
-    columns: Vec<Column>,
-    open: Vec<Open>,
-    levels: Vec<Level<N>>,
-}
-
-impl<const N: usize> Room<N> {
-    pub fn new(team: &Team<'_>, columns: usize) -> Self {
-        Self {
-            roles: vec![[0; N]; team.roles()],
-            ways: vec![Way::EMPTY; team.plans()],
-            slots: vec![Slot::EMPTY; team.tasks().len()],
-            columns: vec![Column::EMPTY; columns],
-            open: vec![Open::EMPTY; N * N],
-            levels: vec![Level::EMPTY; N + 1],
-        }
-    }
-
-    pub fn joint(&mut self) -> Joint<'_, N> {
-        Joint::new(JointMemory {
-            roles: &mut self.roles,
-            ways: &mut self.ways,
-            slots: &mut self.slots,
-            columns: &mut self.columns,
-            open: &mut self.open,
-            levels: &mut self.levels,
-        })
-    }
-}
-
-/// What kind of team is drawn.
+/// The kind of team drawn.
 #[derive(Clone, Copy)]
 pub struct Kind {
     pub robots: usize,
@@ -126,8 +92,8 @@ fn gcd(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 
-/// What a task costs by each set of robots, over all its plans and all ways to fill the roles; and
-/// with the set that leaves it undone.
+/// Returns the cost of a task by each set of robots, over all its plans and all ways to fill the
+/// roles; and with the set that leaves it undone.
 pub fn by_set(team: &Team<'_>, task: &Task<'_>) -> Vec<Option<u64>> {
     let parts = u64::from(team.denominator());
     let mut all = vec![None; 1 << team.robots()];
@@ -192,7 +158,7 @@ pub fn least_of_all(team: &Team<'_>) -> Option<u64> {
 }
 
 /// The cost of the answer, added again from who does what; asserts that it is allowed.
-pub fn again<const N: usize>(team: &Team<'_>, joint: &mut Joint<'_, N>) -> u64 {
+pub fn again<const N: usize>(team: &Team<'_>, joint: &mut Winners<'_, N>) -> u64 {
     let (mut taken, mut sum): (RobotSet, u64) = (0, 0);
     let parts = u64::from(team.denominator());
     for (number, task) in team.tasks().iter().enumerate() {

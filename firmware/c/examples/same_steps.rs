@@ -10,6 +10,7 @@ use cotama_core::panorama::Panorama;
 use cotama_core::player::{Checked, Firing, Names, Observer, Outcome, Snapshot, Why};
 use cotama_core::problem::{Candidate, Problem};
 use cotama_core::system::System;
+use cotama_core::ticks::Ticks32;
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
     Body, Cause, Configuration, DeliveryDecider, Diagnosis, FailureModes, Finding, Flag, Flags,
@@ -19,6 +20,7 @@ use cotama_models::nets::watchdog;
 
 fn main() {
     watchdog_steps();
+    ticks_steps();
     level_steps();
     allocation_steps();
     monitor_steps();
@@ -75,7 +77,7 @@ fn watchdog_steps() {
     let program = Checked(watchdog::Program);
     let mut watchdog = watchdog::Checked::start(program, Millis(0), &mut ());
     for (at, event) in table {
-        // What fires is said behind the outcome.
+        // Firings are printed behind the outcome.
         let mut fired = watchdog;
         println!(
             "{}: event {} {}",
@@ -103,6 +105,22 @@ fn watchdog_steps() {
     let mut fired = watchdog;
     println!("{}", if fired.advance(Millis(9_000)).behind { "behind" } else { "not behind" });
     let _ = watchdog.advance_with(Millis(9_000), &mut Print);
+    print_watchdog(&watchdog);
+}
+
+/// A counter of milliseconds of 32 bits begins anew 60 ms after a release: the deadline stays.
+fn ticks_steps() {
+    let counts = [u32::MAX - 59, u32::MAX, 0, 39, u32::MAX, 40, 60, 1_000];
+    let mut ticks = Ticks32::starting_at(counts[0]);
+    let program = Checked(watchdog::Program);
+    let mut watchdog = watchdog::Checked::start(program, ticks.latest(), &mut ());
+    let _ = watchdog.offer(ticks.latest(), &watchdog::Event::Release);
+    for count in counts {
+        let now = ticks.widen(count);
+        let back = watchdog.clock_went_back(now).unwrap_or(Millis(0));
+        println!("count {count} at {now}, back by {back}");
+        let _ = watchdog.advance_with(now, &mut Print);
+    }
     print_watchdog(&watchdog);
 }
 

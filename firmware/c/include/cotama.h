@@ -66,14 +66,14 @@
 // The bytes of a stored one.
 #define COTAMA_WATCHDOG_STORED_BYTES 32
 
-// What became of a call. Where it is not `COTAMA_ERROR_OK`, nothing has happened: nothing has
-// fired, and no memory is written but the working memory of planning.
+// The result of a call. If it is not `COTAMA_ERROR_OK`, nothing has happened: nothing has fired,
+// and no memory is written but the working memory of planning.
 enum cotama_error
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  // It is done.
+  // The call has succeeded.
   COTAMA_ERROR_OK = 0,
   // A pointer is null that must not be.
   COTAMA_ERROR_NULL_POINTER = 1,
@@ -106,7 +106,7 @@ typedef int32_t cotama_error;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What an allocator comes to.
+// The verdict of an allocator.
 enum cotama_verdict
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
@@ -129,7 +129,7 @@ typedef int32_t cotama_verdict;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What a monitor asks for.
+// The request of a monitor.
 enum cotama_request
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
@@ -152,7 +152,7 @@ typedef int32_t cotama_request;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What became of an event that was offered.
+// The outcome of an event that was offered.
 enum cotama_outcome
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
@@ -160,19 +160,19 @@ enum cotama_outcome
  {
   // A transition on it fired.
   COTAMA_OUTCOME_FIRED = 0,
-  // It is ignored: a marked place does so on purpose.
+  // The event is ignored: a marked place does so on purpose.
   COTAMA_OUTCOME_IGNORED_ON_PURPOSE = 1,
-  // It is ignored: no transition on it has the tokens that it needs.
+  // The event is ignored: no transition on it has the tokens that it needs.
   COTAMA_OUTCOME_NOT_ENABLED = 2,
-  // It is ignored: the interval of the transition on it has not begun.
+  // The event is ignored: the interval of the transition on it has not begun.
   COTAMA_OUTCOME_TOO_EARLY = 3,
-  // It is ignored: the interval of the transition on it is over.
+  // The event is ignored: the interval of the transition on it is over.
   COTAMA_OUTCOME_TOO_LATE = 4,
-  // It is ignored: a place would hold more than its bound.
+  // The event is ignored: a place would hold more than its bound.
   COTAMA_OUTCOME_FULL = 5,
-  // It is ignored: there is more to catch up with first, so advance, and offer it again.
+  // The event is ignored: there is more to catch up with first, so advance, and offer it again.
   COTAMA_OUTCOME_BEHIND = 6,
-  // It is refused: a mailbox on its way is full.
+  // The event is refused: a mailbox on its path is full.
   COTAMA_OUTCOME_REFUSED = 7,
 };
 #ifndef __cplusplus
@@ -183,7 +183,7 @@ typedef int32_t cotama_outcome;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What an observer saw: flag `n` is bit `n` of a set of flags.
+// The observation of an observer: flag `n` is bit `n` of a set of flags.
 enum cotama_flag
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -403,7 +403,7 @@ typedef uint32_t cotama_word;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What a plan is chosen for.
+// The criterion by which a plan is chosen.
 enum cotama_objective
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -449,7 +449,7 @@ typedef uint32_t cotama_why;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What became of a plan that was asked for.
+// The outcome of a plan that was asked for.
 enum cotama_replanned
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -470,7 +470,7 @@ typedef uint32_t cotama_replanned;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What a watchdog is told.
+// The events of a watchdog.
 enum cotama_watchdog_event
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -491,7 +491,7 @@ typedef uint32_t cotama_watchdog_event;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What a watchdog says: the bits of `outputs` in a firing, by their numbers.
+// The outputs of a watchdog: the bits of `outputs` in a firing, by their numbers.
 enum cotama_watchdog_output
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -510,7 +510,7 @@ typedef uint32_t cotama_watchdog_output;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// Its places; one of the first four is marked.
+// The places of a watchdog; one of the first four is marked.
 enum cotama_watchdog_place
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -549,7 +549,7 @@ typedef struct cotama_candidate {
   // The hardware that it needs: 0 to 7 units of each of 16 kinds, four bits a kind, the top one
   // of them 0. Kind 0 is lowest.
   uint64_t units;
-  // What it costs on each axis.
+  // Cost on each axis.
   uint32_t cost[COTAMA_AXES];
   // How good the activity is done this way; larger is better. Qualities add up.
   uint32_t quality;
@@ -575,31 +575,31 @@ typedef struct cotama_problem {
 
 // The answer of an allocator. What is not said of its verdict is 0; `axis` is `COTAMA_NONE` then.
 typedef struct cotama_answer {
-  // What it came to.
+  // Verdict of the allocator.
   cotama_verdict verdict;
-  // Of a plan: no plan is better in the objectives.
+  // For a plan: no plan is better in the objectives.
   bool optimal;
   // `bound` is known.
   bool bounded;
-  // Of a plan: its cost on each axis.
+  // For a plan: its cost on each axis.
   uint64_t cost[COTAMA_AXES];
-  // Of a plan: its quality.
+  // For a plan: its quality.
   uint64_t quality;
   // No plan has more in the first objective; or less, where the least is asked for.
   uint64_t bound;
   // The work done, in the allocator's steps.
   uint64_t steps;
-  // Where no plan is: the axis whose limit is not met; `COTAMA_NONE` where that is not known.
+  // Without a plan: the axis whose limit is not met; `COTAMA_NONE` where that is not known.
   uint32_t axis;
   // Without hardware: the activity.
   uint32_t activity;
-  // Where no plan is: the limit of that axis,
+  // Without a plan: the limit of that axis,
   uint64_t limit;
   // and the least that can be reached there.
   uint64_t least;
 } cotama_answer;
 
-// What observers and the scheduler tell in a period.
+// The news of observers and the scheduler in a period.
 typedef struct cotama_perceived {
   // Flags that are raised now: bit `n` is `cotama_flag` `n`.
   uint64_t raised;
@@ -615,8 +615,8 @@ typedef struct cotama_perceived {
 // The plan of a mission: which configuration each drive uses. Where a function is null, the
 // mission has no limits and each drive uses the best that works.
 //
-// The functions are called while the level perceives, and may not use that level: it answers
-// `COTAMA_ERROR_BUSY`.
+// The functions are called while the level perceives, and may not use that level, nor start it
+// anew: it answers `COTAMA_ERROR_BUSY`.
 typedef struct cotama_plans {
   // Handed to the functions.
   void *context;
@@ -632,30 +632,30 @@ typedef struct cotama_plans {
   uint32_t (*short_axis)(void *context);
 } cotama_plans;
 
-// What was diagnosed of raised flags.
+// The diagnosis of raised flags.
 typedef struct cotama_finding {
-  // What was raised.
+  // The flags raised.
   uint64_t flags;
   // The rows of the FMECA that explain it, bit `n` for mode `n`: one where the diagnosis is
   // unique, none where nothing explains it.
   uint64_t modes;
-  // Its number, from 1 on; 0 where nothing was found.
+  // Number of the finding, from 1 on; 0 where nothing was found.
   uint32_t number;
   // A part of it at least is recorded only, and nobody has to decide.
   bool recorded;
 } cotama_finding;
 
-// Where the robot is: 0 says no, any other number yes.
+// State of the drive: 0 says no, any other number yes.
 typedef struct cotama_body {
   // The goal of the drive is reached.
   uint8_t at_goal;
-  // It does not move.
+  // The robot does not move.
   uint8_t stands;
 } cotama_body;
 
-// What a round came to.
+// The outcome of a round.
 typedef struct cotama_round {
-  // What was found of the silence of the operator.
+  // The finding about the silence of the operator.
   struct cotama_finding finding;
   // The net that was told something, else `COTAMA_NONE`;
   uint32_t net;
@@ -667,9 +667,9 @@ typedef struct cotama_round {
 typedef struct cotama_firing {
   // When, ms: what was due earlier than the call fired when it was due.
   uint64_t at_ms;
-  // What it says: bit `n` is output `n` of its net.
+  // The outputs emitted: bit `n` is output `n` of its net.
   uint64_t outputs;
-  // Its net, by its number in the system; 0 for a net alone.
+  // Number of the net in the system; 0 for a net alone.
   uint32_t net;
   // The transition, by its number in the net.
   uint32_t transition;
@@ -685,13 +685,13 @@ typedef struct cotama_firings {
   size_t count;
 } cotama_firings;
 
-// What is to be done until the next round.
+// The requests to the robot until the next round.
 typedef struct cotama_requests {
   // The fastest it may go, mm/s.
   uint64_t speed_mm_s;
   // The modules that are to run, a `cotama_configuration`; `COTAMA_NONE` where nothing does.
   uint32_t configuration;
-  // What adapted settings leave of the speed, in thousandths,
+  // Factor that adapted settings leave of the speed, in thousandths,
   uint16_t speed_permille;
   // and of the quality of what is driven.
   uint16_t quality_permille;
@@ -707,11 +707,18 @@ typedef struct cotama_requests {
 
 // A text of so many bytes, with no zero at the end: `printf("%.*s", (int)it.length, it.bytes)`.
 typedef struct cotama_text {
-  // Where it begins; it stays there as long as the program runs.
+  // Start of the text; it stays there as long as the program runs.
   const char *bytes;
   // How many bytes it has.
   size_t length;
 } cotama_text;
+
+// A counter of milliseconds of 32 bits, which begins anew after 49.7 days, on its way to times of
+// 64 bits, which do not: `cotama_ticks ticks = {first_count};`
+typedef struct cotama_ticks {
+  // The latest time, ms: at first the first count.
+  uint64_t latest_ms;
+} cotama_ticks;
 
 #ifdef __cplusplus
 extern "C" {
@@ -725,7 +732,7 @@ uint32_t cotama_version(void);
 //
 // `plan` has room for a number of each activity: the place of its candidate among those of the
 // activity. It is written when the verdict is `COTAMA_VERDICT_PLANNED`. The memory is free again
-// afterwards, and none of it may overlap the problem, the plan or the answer.
+// afterwards, and none of it may overlap the problem, the plan or the answer, nor they each other.
 //
 // # Safety
 // The pointers are null or point to what their types say, of the lengths given.
@@ -754,13 +761,16 @@ cotama_error cotama_plan_exactly(const struct cotama_problem *problem,
                                  size_t plan_length,
                                  struct cotama_answer *answer);
 
-// What an error says, in English, ended by a zero. Never null.
+// Returns the text of an error, in English, ended by a zero. Never null.
 const char *cotama_error_text(int32_t error);
 
 // Starts the level of a robot at rest, all of which works, in `bytes` bytes of memory, which are
 // its from now on.
 //
-// `planned` is the `cotama_configuration` of the first drive by the plan, or `COTAMA_NONE`.
+// `planned` is the `cotama_configuration` of the first drive by the plan, or `COTAMA_NONE`. In a
+// callback the level that is in use cannot be started anew: `COTAMA_ERROR_BUSY`. So the first
+// eight bytes of memory are looked at: set them to 0 before the first start, and after a reset
+// that has kept them.
 //
 // # Safety
 // The pointers are null or point to what their types say, of the lengths given.
@@ -803,7 +813,7 @@ cotama_error cotama_level_round(struct cotama_level *level,
                                 struct cotama_round *round,
                                 struct cotama_firings *firings);
 
-// What is to be done until the next round.
+// The requests to the robot until the next round.
 //
 // # Safety
 // The pointers are null or point to what their types say; no other thread uses the level.
@@ -872,7 +882,7 @@ cotama_error cotama_monitor_planned(struct cotama_monitor *monitor,
 cotama_error cotama_monitor_spend(struct cotama_monitor *monitor,
                                   const uint64_t *cost);
 
-// What is left of each limit: the limits of the next problem.
+// The rest of each limit: the limits of the next problem.
 //
 // # Safety
 // The pointers are null or point to what their types say, lists to `COTAMA_AXES` numbers; no other
@@ -926,6 +936,17 @@ cotama_error cotama_configuration_name(uint32_t configuration, struct cotama_tex
 // The pointer is null or points to memory for a text.
 cotama_error cotama_failure_mode_name(uint32_t mode, struct cotama_text *name);
 
+// The time of a count, ms: the nearest to the latest one that has these low 32 bits.
+//
+// A count that was read before another one and is told after it has its own, earlier time. Ask at
+// least every 24 days. Ticks of another length are widened in the same way, to ticks.
+//
+// # Safety
+// The pointers are null or point to what their types say; no other thread uses the ticks.
+cotama_error cotama_ticks_widen(struct cotama_ticks *ticks,
+                                uint32_t count,
+                                uint64_t *now_ms);
+
 // Starts a watchdog at `now_ms` in `bytes` bytes of memory, which are its from now on.
 //
 // # Safety
@@ -963,6 +984,17 @@ cotama_error cotama_watchdog_advance(struct cotama_watchdog *watchdog,
 // # Safety
 // The pointers are null or point to what their types say; no other thread uses the watchdog.
 cotama_error cotama_watchdog_wake_at(const struct cotama_watchdog *watchdog, uint64_t *at_ms);
+
+// How far `now_ms` lies before the time that the watchdog was last told, ms; 0 when it does not.
+//
+// A clock that goes back is no error of `cotama_watchdog_offer` and `cotama_watchdog_advance`:
+// time stands still until the clock has caught up. Ask before them.
+//
+// # Safety
+// The pointers are null or point to what their types say; no other thread uses the watchdog.
+cotama_error cotama_watchdog_went_back(const struct cotama_watchdog *watchdog,
+                                       uint64_t now_ms,
+                                       uint64_t *back_ms);
 
 // The marked one of the first four of `cotama_watchdog_place`.
 //

@@ -3,7 +3,7 @@
 
 use crate::error::{Done, cotama_error};
 use crate::firings::COTAMA_NONE;
-use crate::memory::{Carver, Out, Piece, list, list_to_write, read};
+use crate::memory::{Carver, Pieces};
 use core::ffi::c_void;
 use cotama_core::allocation::{Allocator, Answer};
 use cotama_core::exact::{Exact, Item, Objective, Stage};
@@ -25,7 +25,7 @@ pub struct cotama_candidate {
     /// The hardware that it needs: 0 to 7 units of each of 16 kinds, four bits a kind, the top one
     /// of them 0. Kind 0 is lowest.
     pub units: u64,
-    /// What it costs on each axis.
+    /// Cost on each axis.
     pub cost: [u32; COTAMA_AXES],
     /// How good the activity is done this way; larger is better. Qualities add up.
     pub quality: u32,
@@ -51,7 +51,7 @@ pub struct cotama_problem {
     pub order: [u32; COTAMA_AXES],
 }
 
-/// What a plan is chosen for.
+/// The criterion by which a plan is chosen.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum cotama_objective {
@@ -70,7 +70,7 @@ pub enum cotama_objective {
 /// The most objectives of a call.
 pub const COTAMA_OBJECTIVES: usize = 4;
 
-/// What an allocator comes to.
+/// The verdict of an allocator.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum cotama_verdict {
@@ -88,25 +88,25 @@ pub enum cotama_verdict {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct cotama_answer {
-    /// What it came to.
+    /// Verdict of the allocator.
     pub verdict: cotama_verdict,
-    /// Of a plan: no plan is better in the objectives.
+    /// For a plan: no plan is better in the objectives.
     pub optimal: bool,
     /// `bound` is known.
     pub bounded: bool,
-    /// Of a plan: its cost on each axis.
+    /// For a plan: its cost on each axis.
     pub cost: [u64; COTAMA_AXES],
-    /// Of a plan: its quality.
+    /// For a plan: its quality.
     pub quality: u64,
     /// No plan has more in the first objective; or less, where the least is asked for.
     pub bound: u64,
     /// The work done, in the allocator's steps.
     pub steps: u64,
-    /// Where no plan is: the axis whose limit is not met; `COTAMA_NONE` where that is not known.
+    /// Without a plan: the axis whose limit is not met; `COTAMA_NONE` where that is not known.
     pub axis: u32,
     /// Without hardware: the activity.
     pub activity: u32,
-    /// Where no plan is: the limit of that axis,
+    /// Without a plan: the limit of that axis,
     pub limit: u64,
     /// and the least that can be reached there.
     pub least: u64,
@@ -191,18 +191,11 @@ pub(crate) fn order_of(order: &[u32]) -> Result<Axes<usize>, cotama_error> {
 type Loaded<'m> = Result<Problem<'m, COTAMA_AXES>, u32>;
 
 /// Copies the candidates that the hardware allows for; their `id` is their place in their activity.
-///
-/// # Safety
-/// The lists of the problem are null or as long as it says.
-unsafe fn load<'m>(
+fn load<'m>(
     given: &cotama_problem,
+    (mut rest, counts): (&[cotama_candidate], &[u32]),
     memory: &mut Carver,
 ) -> Result<Loaded<'m>, cotama_error> {
-    // SAFETY: the caller promises the same.
-    let (mut rest, counts) = unsafe {
-        let candidates = list(given.candidates, given.candidate_count)?;
-        (candidates, list(given.counts, given.activity_count)?)
-    };
     let order = order_of(&given.order)?;
     let available = Equipment::from_bits(given.available).ok_or(cotama_error::BadNumber)?;
     let none = Way { cost: [0; COTAMA_AXES], quality: 0, id: 0 };
@@ -248,6 +241,7 @@ unsafe fn load<'m>(
 /// # Safety
 /// The pointers are null or point to what their types say, of the lengths given.
 unsafe fn plan<'m>(
+    mut pieces: Pieces,
     problem: *const cotama_problem,
     memory: (*mut c_void, usize),
     plan: (*mut u16, usize),
@@ -258,28 +252,17 @@ unsafe fn plan<'m>(
         &mut [u16],
     ) -> Result<Answer<COTAMA_AXES>, cotama_error>,
 ) -> Done {
-    let working = Piece::of_list(memory.0.cast::<u8>(), memory.1)?;
-    let chosen = Piece::of_list(plan.0, plan.1)?;
-    // SAFETY: the caller promises the same; what is read and what is written lie apart.
-    let (given, answer, mut carver, plan) = unsafe {
-        let given = read(problem)?;
-        let read = [
-            Piece::of_list(given.candidates, given.candidate_count)?,
-            Piece::of_list(given.counts, given.activity_count)?,
-        ];
-        for it in read {
-            it.apart_from(working)?;
-            it.apart_from(chosen)?;
-        }
-        chosen.apart_from(working)?;
-        let answer = Out::new(answer, working)?;
-        answer.piece().apart_from(chosen)?;
-        let carver = Carver::new(memory.0, memory.1)?;
-        (given, answer, carver, list_to_write(plan.0, plan.1)?)
+    // SAFETY: the caller promises the same.
+    let (given, lists, answer, mut carver, plan) = unsafe {
+        let given = pieces.read(problem)?;
+        let candidates = pieces.list(given.candidates, given.candidate_count)?;
+        let counts = pieces.list(given.counts, given.activity_count)?;
+        let answer = pieces.out(answer)?;
+        let carver = pieces.carver(memory.0, memory.1)?;
+        (given, (candidates, counts), answer, carver, pieces.list_to_write(plan.0, plan.1)?)
     };
     let plan = plan.get_mut(..given.activity_count).ok_or(cotama_error::TooSmall)?;
-    // SAFETY: the caller promises the same.
-    let became = match unsafe { load(&given, &mut carver) }? {
+    let became = match load(&given, lists, &mut carver)? {
         Err(activity) => {
             let verdict = cotama_verdict::WithoutHardware;
             cotama_answer { verdict, activity, ..cotama_answer::NOTHING }
@@ -302,7 +285,7 @@ unsafe fn plan<'m>(
 ///
 /// `plan` has room for a number of each activity: the place of its candidate among those of the
 /// activity. It is written when the verdict is `COTAMA_VERDICT_PLANNED`. The memory is free again
-/// afterwards, and none of it may overlap the problem, the plan or the answer.
+/// afterwards, and none of it may overlap the problem, the plan or the answer, nor they each other.
 ///
 /// # Safety
 /// The pointers are null or point to what their types say, of the lengths given.
@@ -316,12 +299,20 @@ pub unsafe extern "C" fn cotama_plan_by_rule(
     plan_length: usize,
     answer: *mut cotama_answer,
 ) -> cotama_error {
+    let pieces = Pieces::new();
     // SAFETY: the caller promises the same.
     let done = unsafe {
-        self::plan(problem, (memory, bytes), (plan, plan_length), answer, |it, memory, plan| {
-            let caps = memory.take(it.activities().len(), [0; COTAMA_AXES])?;
-            Panorama::new(caps).allocate(it, plan).map_err(|_| cotama_error::TooSmall)
-        })
+        self::plan(
+            pieces,
+            problem,
+            (memory, bytes),
+            (plan, plan_length),
+            answer,
+            |it, memory, plan| {
+                let caps = memory.take(it.activities().len(), [0; COTAMA_AXES])?;
+                Panorama::new(caps).allocate(it, plan).map_err(|_| cotama_error::TooSmall)
+            },
+        )
     };
     done.into()
 }
@@ -347,22 +338,30 @@ pub unsafe extern "C" fn cotama_plan_exactly(
     answer: *mut cotama_answer,
 ) -> cotama_error {
     let mut wanted = [Objective::MostQuality; COTAMA_OBJECTIVES];
+    let mut pieces = Pieces::new();
     // SAFETY: the caller promises the same.
-    let named = unsafe { objectives_of(objectives, objective_count, &mut wanted) };
+    let named = unsafe { objectives_of(&mut pieces, objectives, objective_count, &mut wanted) };
     let objectives = match named {
         Ok(it) => it,
         Err(error) => return error,
     };
     // SAFETY: the caller promises the same.
     let done = unsafe {
-        self::plan(problem, (memory, bytes), (plan, plan_length), answer, |it, memory, plan| {
-            let candidates =
-                it.activities().iter().map(|it| it.len()).fold(0, usize::saturating_add);
-            let items = memory.take(candidates, Item::EMPTY)?;
-            let stages = memory.take(it.activities().len(), Stage::EMPTY)?;
-            let mut exact = Exact::new(objectives, steps, items, stages);
-            exact.allocate(it, plan).map_err(|_| cotama_error::TooSmall)
-        })
+        self::plan(
+            pieces,
+            problem,
+            (memory, bytes),
+            (plan, plan_length),
+            answer,
+            |it, memory, plan| {
+                let candidates =
+                    it.activities().iter().map(|it| it.len()).fold(0, usize::saturating_add);
+                let items = memory.take(candidates, Item::EMPTY)?;
+                let stages = memory.take(it.activities().len(), Stage::EMPTY)?;
+                let mut exact = Exact::new(objectives, steps, items, stages);
+                exact.allocate(it, plan).map_err(|_| cotama_error::TooSmall)
+            },
+        )
     };
     done.into()
 }
@@ -371,14 +370,15 @@ pub unsafe extern "C" fn cotama_plan_exactly(
 ///
 /// # Safety
 /// `objectives` is null or points to `count` numbers.
-unsafe fn objectives_of(
+unsafe fn objectives_of<'w>(
+    pieces: &mut Pieces,
     objectives: *const u32,
     count: usize,
-    wanted: &mut [Objective],
-) -> Result<&[Objective], cotama_error> {
+    wanted: &'w mut [Objective],
+) -> Result<&'w [Objective], cotama_error> {
     let wanted = wanted.get_mut(..count).ok_or(cotama_error::BadNumber)?;
     // SAFETY: the caller promises the same.
-    let numbers = unsafe { list(objectives, count) }?;
+    let numbers = unsafe { pieces.list(objectives, count) }?;
     for (slot, number) in wanted.iter_mut().zip(numbers) {
         *slot = match number {
             0 => Objective::MostQuality,

@@ -1,13 +1,13 @@
-//! What can be wrong with a call.
+//! The errors of a call.
 
 use core::ffi::c_char;
 
-/// What became of a call. Where it is not `COTAMA_ERROR_OK`, nothing has happened: nothing has
-/// fired, and no memory is written but the working memory of planning.
+/// The result of a call. If it is not `COTAMA_ERROR_OK`, nothing has happened: nothing has fired,
+/// and no memory is written but the working memory of planning.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum cotama_error {
-    /// It is done.
+    /// The call has succeeded.
     Ok = 0,
     /// A pointer is null that must not be.
     NullPointer = 1,
@@ -33,7 +33,7 @@ pub enum cotama_error {
     Impossible = 11,
 }
 
-/// What a function comes to, for those who are not C.
+/// The result of a function, for callers who are not C.
 ///
 /// cbindgen:ignore
 pub type Done = Result<(), cotama_error>;
@@ -44,7 +44,7 @@ impl From<Done> for cotama_error {
     }
 }
 
-/// What an error says, in English, ended by a zero. Never null.
+/// Returns the text of an error, in English, ended by a zero. Never null.
 // SAFETY: no other function of the program has this name.
 #[unsafe(no_mangle)]
 pub extern "C" fn cotama_error_text(error: i32) -> *const c_char {

@@ -1,7 +1,7 @@
-//! What fired, noted in the caller's memory.
+//! Firings, noted in the caller's memory.
 
 use crate::error::cotama_error;
-use crate::memory::{Piece, list_to_write, read};
+use crate::memory::{Out, Pieces};
 use crate::tables::Says;
 use core::ffi::c_char;
 use cotama_core::player::{Firing, Names, Observer};
@@ -17,7 +17,7 @@ pub const COTAMA_NEVER: u64 = u64::MAX;
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct cotama_text {
-    /// Where it begins; it stays there as long as the program runs.
+    /// Start of the text; it stays there as long as the program runs.
     pub bytes: *const c_char,
     /// How many bytes it has.
     pub length: usize,
@@ -35,9 +35,9 @@ impl From<&'static str> for cotama_text {
 pub struct cotama_firing {
     /// When, ms: what was due earlier than the call fired when it was due.
     pub at_ms: u64,
-    /// What it says: bit `n` is output `n` of its net.
+    /// The outputs emitted: bit `n` is output `n` of its net.
     pub outputs: u64,
-    /// Its net, by its number in the system; 0 for a net alone.
+    /// Number of the net in the system; 0 for a net alone.
     pub net: u32,
     /// The transition, by its number in the net.
     pub transition: u32,
@@ -57,9 +57,9 @@ pub struct cotama_firings {
 
 /// Notes firings.
 pub(crate) struct Notes<'l> {
-    /// What transitions say.
+    /// The outputs of transitions.
     says: Says<'static>,
-    to: Option<*mut cotama_firings>,
+    to: Option<Out<cotama_firings>>,
     list: &'l mut [cotama_firing],
     count: usize,
 }
@@ -70,27 +70,24 @@ impl Notes<'_> {
     pub(crate) unsafe fn new(
         says: Says<'static>,
         firings: *mut cotama_firings,
-        beside: Piece,
+        pieces: &mut Pieces,
     ) -> Result<Self, cotama_error> {
         if firings.is_null() {
             return Ok(Self { says, to: None, list: &mut [], count: 0 });
         }
-        // SAFETY: it is promised that such a value is there.
-        let given = unsafe { read(firings) }?;
-        Piece::of(firings, 1).apart_from(beside)?;
-        let list = Piece::of_list(given.list, given.room)?;
-        list.apart_from(beside)?;
-        list.apart_from(Piece::of(firings, 1))?;
-        // SAFETY: it is promised that the list has this room, and it overlaps nothing in use.
-        let list = unsafe { list_to_write(given.list, given.room) }?;
-        Ok(Self { says, to: Some(firings), list, count: 0 })
+        // SAFETY: it is promised that such a value is there, and that the list has this room.
+        let (to, list) = unsafe {
+            let (given, to) = pieces.change(firings)?;
+            (to, pieces.list_to_write(given.list, given.room)?)
+        };
+        Ok(Self { says, to: Some(to), list, count: 0 })
     }
 
     /// Tells the caller how many there were.
     pub(crate) fn end(self) {
         if let Some(to) = self.to {
             // SAFETY: the address was checked when the notes began.
-            unsafe { (&raw mut (*to).count).write(self.count) };
+            unsafe { (&raw mut (*to.address()).count).write(self.count) };
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::error::{Done, cotama_error};
 use crate::firings::{COTAMA_NONE, Notes, cotama_firings, cotama_text};
-use crate::memory::{Handle, Kept, Out, Piece, Started, read, start};
+use crate::memory::{Handle, Kept, Pieces};
 use crate::names::{configuration_of, word_of};
 use crate::plans::{Planning, cotama_plans};
 use core::ffi::c_void;
@@ -19,6 +19,7 @@ pub struct cotama_level {
 
 impl Handle for cotama_level {
     type Value = DeliveryDecider;
+    const BYTES: usize = COTAMA_LEVEL_BYTES;
     const MARK: u64 = 0x0000_006c_6576_656c; // "level"
 }
 
@@ -33,7 +34,7 @@ crate::tables! { delivery::SYSTEM }
 /// cbindgen:ignore
 const OBJECTIVES: u32 = ACTIVITIES.len() as u32;
 
-/// What observers and the scheduler tell in a period.
+/// The news of observers and the scheduler in a period.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct cotama_perceived {
@@ -48,16 +49,16 @@ pub struct cotama_perceived {
     pub works: u32,
 }
 
-/// What was diagnosed of raised flags.
+/// The diagnosis of raised flags.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct cotama_finding {
-    /// What was raised.
+    /// The flags raised.
     pub flags: u64,
     /// The rows of the FMECA that explain it, bit `n` for mode `n`: one where the diagnosis is
     /// unique, none where nothing explains it.
     pub modes: u64,
-    /// Its number, from 1 on; 0 where nothing was found.
+    /// Number of the finding, from 1 on; 0 where nothing was found.
     pub number: u32,
     /// A part of it at least is recorded only, and nobody has to decide.
     pub recorded: bool,
@@ -78,21 +79,21 @@ impl From<Option<Finding>> for cotama_finding {
     }
 }
 
-/// Where the robot is: 0 says no, any other number yes.
+/// State of the drive: 0 says no, any other number yes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct cotama_body {
     /// The goal of the drive is reached.
     pub at_goal: u8,
-    /// It does not move.
+    /// The robot does not move.
     pub stands: u8,
 }
 
-/// What a round came to.
+/// The outcome of a round.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct cotama_round {
-    /// What was found of the silence of the operator.
+    /// The finding about the silence of the operator.
     pub finding: cotama_finding,
     /// The net that was told something, else `COTAMA_NONE`;
     pub net: u32,
@@ -100,7 +101,7 @@ pub struct cotama_round {
     pub event: u32,
 }
 
-/// What is to be done until the next round.
+/// The requests to the robot until the next round.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct cotama_requests {
@@ -108,7 +109,7 @@ pub struct cotama_requests {
     pub speed_mm_s: u64,
     /// The modules that are to run, a `cotama_configuration`; `COTAMA_NONE` where nothing does.
     pub configuration: u32,
-    /// What adapted settings leave of the speed, in thousandths,
+    /// Factor that adapted settings leave of the speed, in thousandths,
     pub speed_permille: u16,
     /// and of the quality of what is driven.
     pub quality_permille: u16,
@@ -125,7 +126,10 @@ pub struct cotama_requests {
 /// Starts the level of a robot at rest, all of which works, in `bytes` bytes of memory, which are
 /// its from now on.
 ///
-/// `planned` is the `cotama_configuration` of the first drive by the plan, or `COTAMA_NONE`.
+/// `planned` is the `cotama_configuration` of the first drive by the plan, or `COTAMA_NONE`. In a
+/// callback the level that is in use cannot be started anew: `COTAMA_ERROR_BUSY`. So the first
+/// eight bytes of memory are looked at: set them to 0 before the first start, and after a reset
+/// that has kept them.
 ///
 /// # Safety
 /// The pointers are null or point to what their types say, of the lengths given.
@@ -142,9 +146,13 @@ pub unsafe extern "C" fn cotama_level_start(
         (_, Some(it)) => Some(it),
         (_, None) => return cotama_error::BadNumber,
     };
-    let make = || Ok(DeliveryDecider::start(delivery::Program, OBJECTIVES, planned));
-    // SAFETY: the caller promises the same.
-    unsafe { start(memory, bytes, level, make) }.into()
+    let start = || {
+        // SAFETY: the caller promises the same.
+        let place = unsafe { Pieces::new().place(memory, bytes, level)?.unless_in_use() }?;
+        place.start(DeliveryDecider::start(delivery::Program, OBJECTIVES, planned));
+        Ok(())
+    };
+    Done::into(start())
 }
 
 /// Observers tell what they see. At most one finding comes of it.
@@ -164,11 +172,12 @@ pub unsafe extern "C" fn cotama_level_perceive(
     finding: *mut cotama_finding,
 ) -> cotama_error {
     let perceive = || {
+        let mut pieces = Pieces::new();
         // SAFETY: the caller promises the same.
         let (started, seen, mut plans, finding) = unsafe {
-            let started = Started::new(level)?;
-            let finding = Out::wanted(finding, started.piece())?;
-            (started, read(seen)?, Planning::of(plans)?, finding)
+            let started = pieces.started(level)?;
+            let finding = pieces.wanted(finding)?;
+            (started, pieces.read(seen)?, Planning::of(plans, &mut pieces)?, finding)
         };
         let flags = |it| Flags::from_bits(it).ok_or(cotama_error::BadNumber);
         let modules = |it| Modules::from_bits(it).ok_or(cotama_error::BadNumber);
@@ -197,10 +206,11 @@ pub unsafe extern "C" fn cotama_level_listens(
     listens: *mut bool,
 ) -> cotama_error {
     let ask = || {
+        let mut pieces = Pieces::new();
         // SAFETY: the caller promises the same.
         let (started, listens) = unsafe {
-            let started = Started::new(level)?;
-            let listens = Out::new(listens, started.piece())?;
+            let started = pieces.started(level)?;
+            let listens = pieces.out(listens)?;
             (started, listens)
         };
         listens.put(started.with(|it| it.listens()));
@@ -226,12 +236,13 @@ pub unsafe extern "C" fn cotama_level_round(
     firings: *mut cotama_firings,
 ) -> cotama_error {
     let take = || {
+        let mut pieces = Pieces::new();
         // SAFETY: the caller promises the same.
         let (started, body, round, mut notes) = unsafe {
-            let started = Started::new(level)?;
-            let round = Out::wanted(round, started.piece())?;
-            let notes = Notes::new(SAYS, firings, started.piece())?;
-            (started, read(body)?, round, notes)
+            let started = pieces.started(level)?;
+            let round = pieces.wanted(round)?;
+            let notes = Notes::new(SAYS, firings, &mut pieces)?;
+            (started, pieces.read(body)?, round, notes)
         };
         let said = word_of(word)?;
         let body = Body { at_goal: body.at_goal != 0, stands: body.stands != 0 };
@@ -248,7 +259,7 @@ pub unsafe extern "C" fn cotama_level_round(
     Done::into(take())
 }
 
-/// What is to be done until the next round.
+/// The requests to the robot until the next round.
 ///
 /// # Safety
 /// The pointers are null or point to what their types say; no other thread uses the level.
@@ -258,10 +269,11 @@ pub unsafe extern "C" fn cotama_level_requests(
     requests: *mut cotama_requests,
 ) -> cotama_error {
     let ask = || {
+        let mut pieces = Pieces::new();
         // SAFETY: the caller promises the same.
         let (started, requests) = unsafe {
-            let started = Started::new(level)?;
-            let requests = Out::new(requests, started.piece())?;
+            let started = pieces.started(level)?;
+            let requests = pieces.out(requests)?;
             (started, requests)
         };
         let asked = started.with(|it| it.requests());
@@ -321,9 +333,9 @@ unsafe fn tell(
     first: *mut cotama_text,
     second: *mut cotama_text,
 ) -> Done {
+    let mut pieces = Pieces::new();
     // SAFETY: the caller promises the same.
-    let (first, second) =
-        unsafe { (Out::new(first, Piece::of(first, 0))?, Out::new(second, Piece::of(second, 0))?) };
+    let (first, second) = unsafe { (pieces.out(first)?, pieces.out(second)?) };
     let (one, other) = names?;
     first.put(one.into());
     second.put(other.into());

@@ -27,6 +27,7 @@ pub mod names;
 pub mod plans;
 pub mod supervisor;
 pub mod tables;
+pub mod ticks;
 pub mod watchdog;
 
 /// The version of this header, as numbers. Programs made with one minor version of 0 need a library

@@ -3,7 +3,7 @@
 use crate::allocation::{COTAMA_AXES, order_of};
 use crate::error::{Done, cotama_error};
 use crate::firings::COTAMA_NONE;
-use crate::memory::{Handle, Kept, Out, Started, list, start};
+use crate::memory::{Handle, Kept, Pieces};
 use core::ffi::c_void;
 use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{MAX_AMOUNT, Monitor, Request, Trigger, Upward};
@@ -15,6 +15,7 @@ pub struct cotama_monitor {
 
 impl Handle for cotama_monitor {
     type Value = Monitor<COTAMA_AXES>;
+    const BYTES: usize = COTAMA_MONITOR_BYTES;
     const MARK: u64 = 0x0072_6f74_696e_6f6d; // "monitor"
 }
 
@@ -22,7 +23,7 @@ impl Handle for cotama_monitor {
 pub const COTAMA_MONITOR_BYTES: usize = 128;
 const _: () = assert!(Kept::<Monitor<COTAMA_AXES>>::fits(COTAMA_MONITOR_BYTES, 8));
 
-/// What a monitor asks for.
+/// The request of a monitor.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum cotama_request {
@@ -40,9 +41,12 @@ pub enum cotama_request {
 ///
 /// # Safety
 /// `amounts` is null or points to [`COTAMA_AXES`] of them.
-unsafe fn amounts(amounts: *const u64) -> Result<[u64; COTAMA_AXES], cotama_error> {
+unsafe fn amounts(
+    pieces: &mut Pieces,
+    amounts: *const u64,
+) -> Result<[u64; COTAMA_AXES], cotama_error> {
     // SAFETY: the caller promises the same.
-    let list = unsafe { list(amounts, COTAMA_AXES) }?;
+    let list = unsafe { pieces.list(amounts, COTAMA_AXES) }?;
     list.try_into().map_err(|_| cotama_error::BadNumber)
 }
 
@@ -62,15 +66,18 @@ pub unsafe extern "C" fn cotama_monitor_start(
     monitor: *mut *mut cotama_monitor,
 ) -> cotama_error {
     let start = || {
+        let mut pieces = Pieces::new();
         // SAFETY: the caller promises the same.
-        unsafe {
-            let (limits, order) = (amounts(limits)?, order_of(list(order, COTAMA_AXES)?)?);
-            start(memory, bytes, monitor, || {
-                Monitor::new(limits, order).map_err(|_| cotama_error::BadNumber)
-            })
-        }
+        let (limits, order, place) = unsafe {
+            let limits = amounts(&mut pieces, limits)?;
+            let order = pieces.list(order, COTAMA_AXES)?;
+            (limits, order, pieces.place(memory, bytes, monitor)?)
+        };
+        let made = Monitor::new(limits, order_of(order)?);
+        place.start(made.map_err(|_| cotama_error::BadNumber)?);
+        Ok(())
     };
-    start().into()
+    Done::into(start())
 }
 
 /// Asks for a better plan too: when some margin has grown by `growth` since the last plan (0: not
@@ -86,10 +93,12 @@ pub unsafe extern "C" fn cotama_monitor_ask_upward(
     reserve: *const u64,
 ) -> cotama_error {
     let ask = || {
+        let mut pieces = Pieces::new();
         // SAFETY: the caller promises the same.
         let (started, upward) = unsafe {
-            let started = Started::new(monitor)?;
-            (started, Upward { growth: amounts(growth)?, reserve: amounts(reserve)? })
+            let started = pieces.started(monitor)?;
+            let growth = amounts(&mut pieces, growth)?;
+            (started, Upward { growth, reserve: amounts(&mut pieces, reserve)? })
         };
         if upward.growth.iter().chain(&upward.reserve).any(|it| *it > MAX_AMOUNT) {
             return Err(cotama_error::BadNumber);
@@ -109,7 +118,7 @@ pub unsafe extern "C" fn cotama_monitor_hardware_returned(
     monitor: *mut cotama_monitor,
 ) -> cotama_error {
     // SAFETY: the caller promises the same.
-    let started = unsafe { Started::new(monitor) };
+    let started = unsafe { Pieces::new().started(monitor) };
     let done: Done = started.map(|it| it.with(Monitor::hardware_returned));
     done.into()
 }
@@ -125,8 +134,9 @@ pub unsafe extern "C" fn cotama_monitor_planned(
     rest: *const u64,
 ) -> cotama_error {
     let planned = || {
+        let mut pieces = Pieces::new();
         // SAFETY: the caller promises the same.
-        let (started, rest) = unsafe { (Started::new(monitor)?, amounts(rest)?) };
+        let (started, rest) = unsafe { (pieces.started(monitor)?, amounts(&mut pieces, rest)?) };
         started.with(|it| it.planned(&rest)).map_err(|_| cotama_error::BadNumber)
     };
     planned().into()
@@ -143,14 +153,15 @@ pub unsafe extern "C" fn cotama_monitor_spend(
     cost: *const u64,
 ) -> cotama_error {
     let spend = || {
+        let mut pieces = Pieces::new();
         // SAFETY: the caller promises the same.
-        let (started, cost) = unsafe { (Started::new(monitor)?, amounts(cost)?) };
+        let (started, cost) = unsafe { (pieces.started(monitor)?, amounts(&mut pieces, cost)?) };
         started.with(|it| it.spend(&cost)).map_err(|_| cotama_error::BadNumber)
     };
     spend().into()
 }
 
-/// What is left of each limit: the limits of the next problem.
+/// The rest of each limit: the limits of the next problem.
 ///
 /// # Safety
 /// The pointers are null or point to what their types say, lists to `COTAMA_AXES` numbers; no other
@@ -161,10 +172,11 @@ pub unsafe extern "C" fn cotama_monitor_left(
     left: *mut u64,
 ) -> cotama_error {
     let left = || {
+        let mut pieces = Pieces::new();
         // SAFETY: the caller promises the same.
         let (started, left) = unsafe {
-            let started = Started::new(monitor)?;
-            let left = Out::new(left.cast::<[u64; COTAMA_AXES]>(), started.piece())?;
+            let started = pieces.started(monitor)?;
+            let left = pieces.out(left.cast::<[u64; COTAMA_AXES]>())?;
             (started, left)
         };
         left.put(started.with(|it| it.left()));
@@ -185,11 +197,12 @@ pub unsafe extern "C" fn cotama_monitor_margins(
     margins: *mut i64,
 ) -> cotama_error {
     let find = || {
+        let mut pieces = Pieces::new();
         // SAFETY: the caller promises the same.
         let (started, rest, margins) = unsafe {
-            let started = Started::new(monitor)?;
-            let margins = Out::new(margins.cast::<[i64; COTAMA_AXES]>(), started.piece())?;
-            (started, amounts(rest)?, margins)
+            let started = pieces.started(monitor)?;
+            let margins = pieces.out(margins.cast::<[i64; COTAMA_AXES]>())?;
+            (started, amounts(&mut pieces, rest)?, margins)
         };
         let found = started.with(|it| it.margins(&rest)).map_err(|_| cotama_error::BadNumber)?;
         margins.put(found);
@@ -214,12 +227,13 @@ pub unsafe extern "C" fn cotama_monitor_assess(
     axis: *mut u32,
 ) -> cotama_error {
     let assess = || {
+        let mut pieces = Pieces::new();
         // SAFETY: the caller promises the same.
         let (started, rest, request, axis) = unsafe {
-            let started = Started::new(monitor)?;
-            let request = Out::new(request, started.piece())?;
-            let axis = Out::wanted(axis, started.piece())?;
-            (started, amounts(rest)?, request, axis)
+            let started = pieces.started(monitor)?;
+            let request = pieces.out(request)?;
+            let axis = pieces.wanted(axis)?;
+            (started, amounts(&mut pieces, rest)?, request, axis)
         };
         let needs = Equipment::from_bits(needs).ok_or(cotama_error::BadNumber)?;
         let available = Equipment::from_bits(available).ok_or(cotama_error::BadNumber)?;

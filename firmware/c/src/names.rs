@@ -1,9 +1,9 @@
-//! What the delivery robot's decisional level hears and says, by number: enums that mirror those of
-//! `cotama-models`, which is checked while compiling.
+//! Events and outputs of the delivery robot's decisional level, by number: enums that mirror those
+//! of `cotama-models`, which is checked while compiling.
 
 use crate::error::{Done, cotama_error};
 use crate::firings::cotama_text;
-use crate::memory::{Out, Piece};
+use crate::memory::Pieces;
 use cotama_models::cotama::{Configuration, FailureMode, Flag, Module, Word, operator};
 
 /// Whether an enum for C has the members of one of Rust's, with their numbers.
@@ -20,7 +20,7 @@ macro_rules! mirrors {
     };
 }
 
-/// What an observer saw: flag `n` is bit `n` of a set of flags.
+/// The observation of an observer: flag `n` is bit `n` of a set of flags.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum cotama_flag {
@@ -252,7 +252,7 @@ pub(crate) fn configuration_of(number: u32) -> Option<Configuration> {
 /// The pointer is null or points to memory for a text.
 unsafe fn tell(name: Option<&'static str>, to: *mut cotama_text) -> Done {
     // SAFETY: the caller promises the same.
-    let to = unsafe { Out::new(to, Piece::of(to, 0)) }?;
+    let to = unsafe { Pieces::new().out(to) }?;
     to.put(name.ok_or(cotama_error::BadNumber)?.into());
     Ok(())
 }

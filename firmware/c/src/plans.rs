@@ -2,7 +2,7 @@
 
 use crate::error::cotama_error;
 use crate::firings::COTAMA_NONE;
-use crate::memory::read;
+use crate::memory::Pieces;
 use crate::names::configuration_of;
 use core::ffi::c_void;
 use cotama_models::cotama::{Configuration, Modules, NoPlanLeft, Plans, Why};
@@ -19,7 +19,7 @@ pub enum cotama_why {
     Margin = 2,
 }
 
-/// What became of a plan that was asked for.
+/// The outcome of a plan that was asked for.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum cotama_replanned {
@@ -34,8 +34,8 @@ pub enum cotama_replanned {
 /// The plan of a mission: which configuration each drive uses. Where a function is null, the
 /// mission has no limits and each drive uses the best that works.
 ///
-/// The functions are called while the level perceives, and may not use that level: it answers
-/// `COTAMA_ERROR_BUSY`.
+/// The functions are called while the level perceives, and may not use that level, nor start it
+/// anew: it answers `COTAMA_ERROR_BUSY`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct cotama_plans {
@@ -61,12 +61,15 @@ pub(crate) struct Planning(Option<cotama_plans>);
 impl Planning {
     /// # Safety
     /// `plans` is null or points to such a value, whose functions may be called with its context.
-    pub(crate) unsafe fn of(plans: *const cotama_plans) -> Result<Self, cotama_error> {
+    pub(crate) unsafe fn of(
+        plans: *const cotama_plans,
+        pieces: &mut Pieces,
+    ) -> Result<Self, cotama_error> {
         if plans.is_null() {
             return Ok(Self(None));
         }
         // SAFETY: it is promised that such a value is there.
-        unsafe { read(plans) }.map(|it| Self(Some(it)))
+        unsafe { pieces.read(plans) }.map(|it| Self(Some(it)))
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! A file for a net, as `watchdog.rs` is one for the net of that name:
 //!
-//! 1. an opaque type, which is a [`Handle`] of the net's checked player;
+//! 1. an opaque type, which is a [`Handle`] of the net's checked player, of so many bytes;
 //! 2. enums with the net's events, outputs and places in the order of `net!`, for the header, and
 //!    one line each that compares their names with the net's while compiling ([`same_names`]);
 //! 3. a constant with the bytes of a handle and one with those of a stored state, for the header,
@@ -20,7 +20,7 @@
 
 use crate::error::{Done, cotama_error};
 use crate::firings::{COTAMA_NEVER, Notes, cotama_firings, cotama_text};
-use crate::memory::{Handle, Out, Piece, Started, list, list_to_write, start as start_handle};
+use crate::memory::{Handle, Pieces};
 use crate::tables::{NamesOf, Says};
 use core::ffi::c_void;
 use cotama_core::net::{EventId, Net, PlaceId, Signal};
@@ -30,25 +30,25 @@ use cotama_core::player::{
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
 
-/// What became of an event that was offered.
+/// The outcome of an event that was offered.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum cotama_outcome {
     /// A transition on it fired.
     Fired = 0,
-    /// It is ignored: a marked place does so on purpose.
+    /// The event is ignored: a marked place does so on purpose.
     IgnoredOnPurpose = 1,
-    /// It is ignored: no transition on it has the tokens that it needs.
+    /// The event is ignored: no transition on it has the tokens that it needs.
     NotEnabled = 2,
-    /// It is ignored: the interval of the transition on it has not begun.
+    /// The event is ignored: the interval of the transition on it has not begun.
     TooEarly = 3,
-    /// It is ignored: the interval of the transition on it is over.
+    /// The event is ignored: the interval of the transition on it is over.
     TooLate = 4,
-    /// It is ignored: a place would hold more than its bound.
+    /// The event is ignored: a place would hold more than its bound.
     Full = 5,
-    /// It is ignored: there is more to catch up with first, so advance, and offer it again.
+    /// The event is ignored: there is more to catch up with first, so advance, and offer it again.
     Behind = 6,
-    /// It is refused: a mailbox on its way is full.
+    /// The event is refused: a mailbox on its path is full.
     Refused = 7,
 }
 
@@ -78,7 +78,7 @@ pub type Playing<P, const W: usize, const C: usize> = Player<Checked<P>, W, C>;
 pub trait Alone: Sized + 'static {
     /// The program.
     const PROGRAM: Self;
-    /// What its transitions say: of [`tables!`](crate::tables!).
+    /// The outputs of its transitions: of [`tables!`](crate::tables!).
     const SAYS: Says<'static>;
     /// How many events it has.
     const EVENTS: u32;
@@ -102,15 +102,14 @@ where
     H: Handle<Value = Playing<P, W, C>>,
     P: Program<W, C> + Alone + Copy,
 {
-    let piece = Piece::of(memory.cast::<u8>(), bytes);
+    let mut pieces = Pieces::new();
     // SAFETY: the caller promises the same.
-    unsafe {
-        let mut notes = Notes::new(P::SAYS, firings, piece)?;
-        start_handle(memory, bytes, handle, || {
-            Ok(Player::start(Checked(P::PROGRAM), Millis(now), &mut notes))
-        })?;
-        notes.end();
-    }
+    let (place, mut notes) = unsafe {
+        let place = pieces.place(memory, bytes, handle)?;
+        (place, Notes::new(P::SAYS, firings, &mut pieces)?)
+    };
+    place.start(Player::start(Checked(P::PROGRAM), Millis(now), &mut notes));
+    notes.end();
     Ok(())
 }
 
@@ -129,11 +128,12 @@ where
     H: Handle<Value = Playing<P, W, C>>,
     P: Program<W, C> + Alone,
 {
+    let mut pieces = Pieces::new();
     // SAFETY: the caller promises the same.
     let (started, outcome, mut notes) = unsafe {
-        let started = Started::new(handle)?;
-        let outcome = Out::wanted(outcome, started.piece())?;
-        let notes = Notes::new(P::SAYS, firings, started.piece())?;
+        let started = pieces.started(handle)?;
+        let outcome = pieces.wanted(outcome)?;
+        let notes = Notes::new(P::SAYS, firings, &mut pieces)?;
         (started, outcome, notes)
     };
     if event >= P::EVENTS {
@@ -162,11 +162,12 @@ where
     H: Handle<Value = Playing<P, W, C>>,
     P: Program<W, C> + Alone,
 {
+    let mut pieces = Pieces::new();
     // SAFETY: the caller promises the same.
     let (started, behind, mut notes) = unsafe {
-        let started = Started::new(handle)?;
-        let behind = Out::wanted(behind, started.piece())?;
-        let notes = Notes::new(P::SAYS, firings, started.piece())?;
+        let started = pieces.started(handle)?;
+        let behind = pieces.wanted(behind)?;
+        let notes = Notes::new(P::SAYS, firings, &mut pieces)?;
         (started, behind, notes)
     };
     let advanced = started.with(|it| it.advance_with(Millis(now), &mut notes));
@@ -186,13 +187,38 @@ where
     H: Handle<Value = Playing<P, W, C>>,
     P: Program<W, C>,
 {
+    let mut pieces = Pieces::new();
     // SAFETY: the caller promises the same.
     let (started, at) = unsafe {
-        let started = Started::new(handle)?;
-        let at = Out::new(at, started.piece())?;
+        let started = pieces.started(handle)?;
+        let at = pieces.out(at)?;
         (started, at)
     };
     at.put(started.with(|it| it.wake_at()).map_or(COTAMA_NEVER, |it| it.0));
+    Ok(())
+}
+
+/// How far `now` lies before the time last told, ms; 0 when it does not.
+///
+/// # Safety
+/// The pointers are null or point to what their types say.
+pub unsafe fn went_back<H, P, const W: usize, const C: usize>(
+    handle: *const H,
+    now: u64,
+    back: *mut u64,
+) -> Done
+where
+    H: Handle<Value = Playing<P, W, C>>,
+    P: Program<W, C>,
+{
+    let mut pieces = Pieces::new();
+    // SAFETY: the caller promises the same.
+    let (started, back) = unsafe {
+        let started = pieces.started(handle)?;
+        let back = pieces.out(back)?;
+        (started, back)
+    };
+    back.put(started.with(|it| it.clock_went_back(Millis(now))).map_or(0, |it| it.0));
     Ok(())
 }
 
@@ -209,10 +235,11 @@ where
     H: Handle<Value = Playing<P, W, C>>,
     P: Program<W, C> + Alone,
 {
+    let mut pieces = Pieces::new();
     // SAFETY: the caller promises the same.
     let (started, tokens) = unsafe {
-        let started = Started::new(handle)?;
-        let tokens = Out::new(tokens, started.piece())?;
+        let started = pieces.started(handle)?;
+        let tokens = pieces.out(tokens)?;
         (started, tokens)
     };
     if place >= P::PLACES {
@@ -233,10 +260,11 @@ where
     P: Program<W, C> + StateMachine,
 {
     const { assert!(P::IS_ONE, "this net is no state machine: ask for `tokens` of its places") };
+    let mut pieces = Pieces::new();
     // SAFETY: the caller promises the same.
     let (started, place) = unsafe {
-        let started = Started::new(handle)?;
-        let place = Out::new(place, started.piece())?;
+        let started = pieces.started(handle)?;
+        let place = pieces.out(place)?;
         (started, place)
     };
     let marked = started.with(|it| {
@@ -262,13 +290,12 @@ where
     H: Handle<Value = Playing<P, W, C>>,
     P: Program<W, C>,
 {
+    let mut pieces = Pieces::new();
     // SAFETY: the caller promises the same.
     let (started, written, bytes) = unsafe {
-        let started = Started::new(handle)?;
-        let piece = Piece::of_list(bytes, room)?;
-        piece.apart_from(started.piece())?;
-        let written = Out::wanted(written, piece)?;
-        (started, written, list_to_write(bytes, room)?)
+        let started = pieces.started(handle)?;
+        let written = pieces.wanted(written)?;
+        (started, written, pieces.list_to_write(bytes, room)?)
     };
     let snapshot = started.with(|it| it.snapshot());
     let stored = snapshot.write(bytes).ok_or(cotama_error::TooSmall)?.len();
@@ -296,22 +323,20 @@ where
     H: Handle<Value = Playing<P, W, C>>,
     P: Program<W, C> + Alone + Copy,
 {
-    // SAFETY: the caller promises the same.
-    unsafe {
-        if stored.is_null() {
-            return Err(cotama_error::NullPointer);
-        }
-        Piece::of_list(stored, length)?.apart_from(Piece::of(memory.cast::<u8>(), bytes))?;
-        let stored = list(stored, length)?;
-        start_handle(memory, bytes, handle, || {
-            let snapshot = Snapshot::read(stored).ok_or(cotama_error::Damaged)?;
-            let restored = Player::restore(Checked(P::PROGRAM), Millis(now), &snapshot);
-            restored.map_err(|error| match error {
-                RestoreError::OtherSystem { .. } => cotama_error::OtherNet,
-                _ => cotama_error::Impossible,
-            })
-        })
+    if stored.is_null() {
+        return Err(cotama_error::NullPointer);
     }
+    let mut pieces = Pieces::new();
+    // SAFETY: the caller promises the same.
+    let (stored, place) =
+        unsafe { (pieces.list(stored, length)?, pieces.place(memory, bytes, handle)?) };
+    let snapshot = Snapshot::read(stored).ok_or(cotama_error::Damaged)?;
+    let restored = Player::restore(Checked(P::PROGRAM), Millis(now), &snapshot);
+    place.start(restored.map_err(|error| match error {
+        RestoreError::OtherSystem { .. } => cotama_error::OtherNet,
+        _ => cotama_error::Impossible,
+    })?);
+    Ok(())
 }
 
 /// The name of a transition.
@@ -324,7 +349,7 @@ pub unsafe fn transition_name(
     name: *mut cotama_text,
 ) -> Done {
     // SAFETY: the caller promises the same.
-    let name = unsafe { Out::new(name, Piece::of(name, 0)) }?;
+    let name = unsafe { Pieces::new().out(name) }?;
     name.put(names.of(0, transition)?.1.into());
     Ok(())
 }

@@ -4,17 +4,17 @@
 use crate::error::cotama_error;
 use cotama_core::system::System;
 
-/// What each transition of a system says: bit `n` is output `n` of its net.
+/// The outputs of each transition of a system: bit `n` is output `n` of its net.
 #[derive(Clone, Copy, Debug)]
 pub struct Says<'t> {
-    /// Where the transitions of each net begin.
+    /// Start of the transitions of each net.
     pub firsts: &'t [u16],
     /// The outputs of each transition, net by net.
     pub outputs: &'t [u64],
 }
 
 impl Says<'_> {
-    /// What a transition says; nothing for one that there is not.
+    /// Returns the outputs of a transition; 0 for one that does not exist.
     pub(crate) fn of(self, net: u16, transition: u32) -> u64 {
         let first = self.firsts.get(usize::from(net)).map(|it| usize::from(*it));
         let at = first.and_then(|it| it.checked_add(transition as usize));
@@ -27,7 +27,7 @@ impl Says<'_> {
 pub struct NamesOf<'t> {
     /// The names of the nets.
     pub nets: &'t [&'t str],
-    /// Where the names of each net begin, and where the last ends.
+    /// Start of the names of each net, and the end of the last.
     pub firsts: &'t [u16],
     /// The names, net by net.
     pub names: &'t [&'t str],
@@ -67,7 +67,8 @@ pub const fn events(system: &System<'_>, nets: usize) -> usize {
     sum
 }
 
-/// Where the transitions of each net begin, and where the last end; `N` is one more than nets.
+/// Returns the start of the transitions of each net, and the end of the last; `N` is one more than
+/// nets.
 pub const fn first_transitions<const N: usize>(system: &System<'_>) -> [u16; N] {
     let (mut firsts, mut at) = ([0; N], 0);
     while at < N {
@@ -77,7 +78,7 @@ pub const fn first_transitions<const N: usize>(system: &System<'_>) -> [u16; N] 
     firsts
 }
 
-/// Where the events of each net begin, and where the last end; `N` is one more than nets.
+/// Returns the start of the events of each net, and the end of the last; `N` is one more than nets.
 pub const fn first_events<const N: usize>(system: &System<'_>) -> [u16; N] {
     let (mut firsts, mut at) = ([0; N], 0);
     while at < N {
@@ -87,7 +88,7 @@ pub const fn first_events<const N: usize>(system: &System<'_>) -> [u16; N] {
     firsts
 }
 
-/// What each of all `T` transitions says.
+/// Returns the outputs of each of all `T` transitions.
 ///
 /// # Panics
 /// When a net has more than 64 outputs: an error while compiling.
@@ -155,7 +156,7 @@ macro_rules! tables {
         const TABLES_OF: ::cotama_core::system::System<'static> = $system;
         /// How many nets it has.
         const NETS: usize = TABLES_OF.components.len();
-        /// What its transitions say.
+        /// The outputs of its transitions.
         static SAYS: $crate::tables::Says<'static> = $crate::tables::Says {
             firsts: &$crate::tables::first_transitions::<{ NETS + 1 }>(&TABLES_OF),
             outputs: &$crate::tables::outputs::<{ $crate::tables::transitions(&TABLES_OF, NETS) }>(

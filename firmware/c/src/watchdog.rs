@@ -24,6 +24,7 @@ type Player = Playing<Program, WORDS, CLOCKS>;
 
 impl Handle for cotama_watchdog {
     type Value = Player;
+    const BYTES: usize = COTAMA_WATCHDOG_BYTES;
     const MARK: u64 = 0x676f_6468_6374_6177; // "watchdog"
 }
 
@@ -45,7 +46,7 @@ const _: () = {
     assert!(Snapshot::<WORDS, CLOCKS>::BYTES == COTAMA_WATCHDOG_STORED_BYTES);
 };
 
-/// What a watchdog is told.
+/// The events of a watchdog.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum cotama_watchdog_event {
@@ -57,7 +58,7 @@ pub enum cotama_watchdog_event {
     CsAck = 2,
 }
 
-/// What a watchdog says: the bits of `outputs` in a firing, by their numbers.
+/// The outputs of a watchdog: the bits of `outputs` in a firing, by their numbers.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum cotama_watchdog_output {
@@ -67,7 +68,7 @@ pub enum cotama_watchdog_output {
     RtFault = 1,
 }
 
-/// Its places; one of the first four is marked.
+/// The places of a watchdog; one of the first four is marked.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum cotama_watchdog_place {
@@ -152,6 +153,23 @@ pub unsafe extern "C" fn cotama_watchdog_wake_at(
 ) -> cotama_error {
     // SAFETY: the caller promises the same.
     unsafe { supervisor::wake_at(watchdog, at_ms) }.into()
+}
+
+/// How far `now_ms` lies before the time that the watchdog was last told, ms; 0 when it does not.
+///
+/// A clock that goes back is no error of `cotama_watchdog_offer` and `cotama_watchdog_advance`:
+/// time stands still until the clock has caught up. Ask before them.
+///
+/// # Safety
+/// The pointers are null or point to what their types say; no other thread uses the watchdog.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cotama_watchdog_went_back(
+    watchdog: *const cotama_watchdog,
+    now_ms: u64,
+    back_ms: *mut u64,
+) -> cotama_error {
+    // SAFETY: the caller promises the same.
+    unsafe { supervisor::went_back(watchdog, now_ms, back_ms) }.into()
 }
 
 /// The marked one of the first four of `cotama_watchdog_place`.

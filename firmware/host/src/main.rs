@@ -57,7 +57,7 @@ fn scenes(path: &str) -> Result<()> {
 struct Talk {
     server: Server,
     sender: Sender,
-    /// What is in flash.
+    /// Contents of the flash.
     stored: Option<Vec<u8>>,
     memory: Box<Memory>,
     exact: bool,
@@ -125,7 +125,8 @@ fn session(sent: &str, answered: &str, exact: bool) -> Result<()> {
         }
         if period == 2_000 {
             talk.say(&[HANG], None);
-            // What comes while the board hangs and resets is lost: nothing but ends of frames.
+            // Bytes that come while the board hangs and resets are lost: nothing but ends of
+            // frames.
             talk.sent.extend([robot::link::END; 600]);
         }
     }

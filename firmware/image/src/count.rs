@@ -26,7 +26,7 @@ use robot::surroundings::{SEVEN_POINTS, Surroundings};
 use robot::trace::{Nowhere, Trace};
 use semihosting::println;
 
-/// What happens between two marks.
+/// Counts the instructions between two marks.
 macro_rules! counted {
     ($act:expr) => {{
         icount_mark();
@@ -133,8 +133,13 @@ fn level() {
 fn allocators(workspace: &mut Workspace) {
     let (mut candidates, mut lists) = ([EMPTY; CANDIDATES], [&[][..]; STAGES]);
     let rest = Rest::Travel(ACTIVITIES[0].length());
-    let lists =
-        counted!(remaining(black_box(&ACTIVITIES), rest, AVAILABLE, &mut candidates, &mut lists));
+    let lists = counted!(remaining(
+        black_box(&ACTIVITIES),
+        Some(rest),
+        AVAILABLE,
+        &mut candidates,
+        &mut lists
+    ));
     let Some(problem) = lists.ok().and_then(|it| Problem::new(it, LIMITS, ORDER).ok()) else {
         board::exit(104)
     };

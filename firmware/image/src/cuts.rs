@@ -12,7 +12,7 @@ use robot::scenes::Power;
 use robot::trace::{Sink, Trace};
 use semihosting::println;
 
-/// What survives: whether it was begun, and the flash with what the test remembers of it.
+/// Memory that survives: whether it was begun, and the flash with the test's notes on it.
 struct Kept {
     begun: u32,
     power: MaybeUninit<Power>,

@@ -1,4 +1,4 @@
-//! What the images share: a board, its timer, and what a measurement needs.
+//! The common parts of the images: a board, its timer, and measurement.
 //!
 //! A board has a UART, a hardware watchdog and flash. `mps2` is Arm's MPS2 with the images AN385
 //! (Cortex-M3) and AN386 (Cortex-M4F), as QEMU has it; `nrf52840` is Nordic's development kit.
@@ -16,8 +16,12 @@ compile_error!("choose one board");
 mod measure;
 #[cfg(feature = "mps2")]
 mod mps2;
+#[cfg(feature = "mps2")]
+mod mps2_line;
 #[cfg(any(feature = "nrf51822", feature = "nrf52840"))]
 mod nordic;
+#[cfg(any(feature = "nrf51822", feature = "nrf52840"))]
+mod nordic_line;
 #[cfg(feature = "nrf51822")]
 mod nrf51822;
 #[cfg(feature = "nrf52840")]
@@ -30,11 +34,11 @@ pub use measure::{icount_mark, stack_used};
 #[cfg(feature = "mps2")]
 pub use mps2::{CLOCK_HZ, Flash, Uart, Watchdog, exit, set_up};
 #[cfg(feature = "mps2")]
-use mps2::{UART_INTERRUPT, take_byte};
+use mps2_line::{UART_INTERRUPT, take_byte};
 #[cfg(any(feature = "nrf51822", feature = "nrf52840"))]
 pub use nordic::Uart;
 #[cfg(any(feature = "nrf51822", feature = "nrf52840"))]
-use nordic::{UART_INTERRUPT, take_byte};
+use nordic_line::{UART_INTERRUPT, take_byte};
 #[cfg(feature = "nrf51822")]
 use nrf51822::UART_PINS;
 #[cfg(feature = "nrf51822")]

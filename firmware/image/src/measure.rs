@@ -1,4 +1,4 @@
-//! What measurements need: marks at which an emulator counts, and the depth of the stack.
+//! Tools of measurements: marks at which an emulator counts, and the depth of the stack.
 
 use core::hint::black_box;
 use core::ptr::addr_of;

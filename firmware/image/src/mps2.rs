@@ -1,6 +1,7 @@
 //! Arm's MPS2 with AN385 or AN386 (application notes of these names), as QEMU emulates it. Its
 //! flash is RAM that keeps its content while the board resets.
 
+use crate::mps2_line::UART;
 use crate::received::{listen, received};
 use crate::register::Register;
 use core::mem::MaybeUninit;
@@ -12,7 +13,6 @@ use embedded_storage::nor_flash::{
 /// The clock of the core.
 pub const CLOCK_HZ: u32 = 25_000_000;
 
-const UART: usize = 0x4000_4000;
 const WATCHDOG: usize = 0x4000_8000;
 
 /// Nothing to do: clock and pins are set.
@@ -53,18 +53,6 @@ impl Uart {
     }
 }
 
-/// The interrupt of a byte that came.
-pub(crate) const UART_INTERRUPT: u16 = 0;
-
-/// The byte that the UART holds, for its interrupt.
-pub(crate) fn take_byte() -> Option<u8> {
-    // SAFETY: the UART has these registers, and nothing else here reads this data or writes this
-    // bit.
-    let register = |offset| unsafe { Register::new(UART, offset) };
-    register(0x0C).write(0b10); // the interrupt is answered
-    (register(0x04).read() & 2 != 0).then(|| register(0x00).read() as u8)
-}
-
 /// The hardware watchdog (CMSDK APB watchdog).
 #[derive(Debug)]
 pub struct Watchdog {
@@ -77,7 +65,8 @@ impl Watchdog {
         // SAFETY: the watchdog has these registers, and nothing else here uses it.
         let register = |offset| unsafe { Register::new(WATCHDOG, offset) };
         register(0xC00).write(0x1ACC_E551); // unlock
-        // It counts twice: at the end of the first time it interrupts, of the second it resets.
+        // The watchdog counts twice: at the end of the first time it interrupts, of the second it
+        // resets.
         let half = ms * u64::from(CLOCK_HZ) / 2_000;
         register(0x00).write(u32::try_from(half).unwrap_or(u32::MAX));
         register(0x08).write(0b11);

@@ -2,10 +2,9 @@
 //! section 6.33; nRF51 reference manual 3.0, chapter 29).
 
 use crate::UART_PINS;
+use crate::nordic_line::UART;
 use crate::received::{listen, received};
 use crate::register::Register;
-
-const UART: usize = 0x4000_2000;
 
 /// UART 0 at 115,200 baud.
 #[derive(Debug)]
@@ -44,17 +43,4 @@ impl Uart {
     pub fn get(&mut self) -> Option<u8> {
         received()
     }
-}
-
-/// The interrupt of a byte that came.
-pub(crate) const UART_INTERRUPT: u16 = 2;
-
-/// The byte that the UART holds, for its interrupt. It keeps six.
-pub(crate) fn take_byte() -> Option<u8> {
-    // SAFETY: the UART has these registers, and nothing else here uses them.
-    let register = |offset| unsafe { Register::new(UART, offset) };
-    (register(0x108).read() != 0).then(|| {
-        register(0x108).write(0); // EVENTS_RXDRDY
-        register(0x518).read() as u8 // RXD
-    })
 }

@@ -5,7 +5,7 @@
 /// The clock of the core.
 pub const CLOCK_HZ: u32 = 16_000_000;
 
-/// Where the micro:bit's USB serial port is: P0.24 sends, P0.25 receives.
+/// Pins of the micro:bit's USB serial port: P0.24 sends, P0.25 receives.
 pub(crate) const UART_PINS: (u32, u32) = (24, 25);
 
 /// Nothing to do: the clock runs.

@@ -22,7 +22,7 @@ pub fn exit(_: i32) -> ! {
     cortex_m::peripheral::SCB::sys_reset()
 }
 
-/// Where the kit's USB serial port is: P0.06 sends, P0.08 receives.
+/// Pins of the kit's USB serial port: P0.06 sends, P0.08 receives.
 pub(crate) const UART_PINS: (u32, u32) = (6, 8);
 
 /// The hardware watchdog (section 6.36).

@@ -42,7 +42,7 @@ impl Timer {
     }
 }
 
-/// What is done in the interrupt of each millisecond.
+/// Sets the action in the interrupt of each millisecond.
 pub fn every_tick(act: fn(u64)) {
     free(|token| EVERY_TICK.borrow(token).set(Some(act)));
 }

@@ -3,6 +3,7 @@
 
 use crate::message::{self, Period};
 use crate::trace::{Sink, Trace};
+use cotama_core::checksum::crc32;
 use cotama_core::executive::Executive;
 use cotama_core::player::{Checked, Firing, Observer, Snapshot};
 use cotama_core::units::Millis;
@@ -32,8 +33,11 @@ pub struct Control {
     told: Option<Requests>,
 }
 
-/// What is stored: the supervisors, and what is known to be broken.
-pub const STORED_BYTES: usize = Stored::BYTES + 10;
+/// Bytes of the stored state: the supervisors with their checksum, then the parts known to be
+/// broken with a checksum over that of the supervisors and them.
+pub const STORED_BYTES: usize = Stored::BYTES + 14;
+/// Start of what the second checksum covers: the first one.
+const BOUND: usize = Stored::BYTES - 4;
 
 impl Default for Control {
     fn default() -> Self {
@@ -65,7 +69,11 @@ impl Control {
     }
 
     fn go_on(&mut self, bytes: &[u8], now: Millis) -> Option<()> {
-        let (level, known) = bytes.split_at_checked(Stored::BYTES)?;
+        let (content, checksum) = bytes.split_last_chunk::<4>()?;
+        if crc32(content.get(BOUND..)?) != u32::from_le_bytes(*checksum) {
+            return None;
+        }
+        let (level, known) = content.split_at_checked(Stored::BYTES)?;
         let known: &[u8; 10] = known.try_into().ok()?;
         let [f0, f1, f2, f3, s0, s1, s2, s3, l0, l1] = *known;
         let known = Health {
@@ -80,15 +88,17 @@ impl Control {
         Some(())
     }
 
-    /// What has to survive a power cut.
+    /// Returns the state that has to survive a power cut.
     pub fn store(&self) -> [u8; STORED_BYTES] {
         let mut bytes = [0; STORED_BYTES];
         let known = self.decider.health();
-        let (level, rest) = bytes.split_at_mut(Stored::BYTES);
+        let (content, checksum) = bytes.split_at_mut(STORED_BYTES - 4);
+        let (level, rest) = content.split_at_mut(Stored::BYTES);
         let _ = self.decider.level().snapshot().write(level); // the room is its length
         rest[..4].copy_from_slice(&known.faulty.bits().to_le_bytes());
         rest[4..8].copy_from_slice(&known.suspected.bits().to_le_bytes());
         rest[8..].copy_from_slice(&known.lost.bits().to_le_bytes());
+        checksum.copy_from_slice(&crc32(&content[BOUND..]).to_le_bytes());
         bytes
     }
 

@@ -1,5 +1,5 @@
-//! What the robot's microcontroller runs, without heap, and scenes by which two machines can be
-//! told apart: the same code makes the same bytes on a host and on a chip.
+//! The program of the robot's microcontroller, without heap, and scenes by which two machines can
+//! be told apart: the same code makes the same bytes on a host and on a chip.
 //!
 //! | module | what |
 //! | --- | --- |

@@ -54,16 +54,16 @@ impl Sender {
     }
 }
 
-/// What a byte completed.
+/// The result of a received byte.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Received<'r> {
     /// A frame.
     Frame {
-        /// Its number.
+        /// Number of the frame.
         number: u16,
         /// So many frames before it did not come, or came damaged.
         missing: u16,
-        /// Its content.
+        /// Content of the frame.
         content: &'r [u8],
     },
     /// Bytes that are no frame: too long or too short, a wrong escape, a wrong checksum.
@@ -76,7 +76,7 @@ pub struct Receiver {
     bytes: [u8; WHOLE],
     length: usize,
     escaped: bool,
-    /// What came since the last end is no frame.
+    /// Whether the bytes since the last end are no frame.
     spoilt: bool,
     /// The number of the next frame.
     next: u16,

@@ -1,19 +1,19 @@
-//! What the frames say: what is seen in a period, and what is to be done.
+//! Contents of the frames: the news of a period, and the requests.
 
 use cotama_models::cotama::{Body, Flags, Modules, Perceived, Requests, Word, operator};
 
-/// What the control loop is given in a period.
+/// The input of the control loop in a period.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Period {
-    /// What observers and the scheduler tell.
+    /// News of observers and the scheduler.
     pub seen: Perceived,
-    /// Where the robot is.
+    /// State of the drive.
     pub body: Body,
     /// A word of the mission, of the planner of paths, or of the operator.
     pub said: Option<Word>,
 }
 
-/// What can be said, by its number.
+/// The words, by their number.
 pub const WORDS: [Word; 11] = [
     Word::MissionReceived,
     Word::ObjectReceived,
@@ -30,7 +30,7 @@ pub const WORDS: [Word; 11] = [
 const SILENT: u8 = 0xFF;
 
 impl Period {
-    /// Its length as bytes.
+    /// Length in bytes.
     pub const BYTES: usize = 26;
 
     /// As bytes, little endian: raised and lowered flags, the module they are about, the modules

@@ -1,4 +1,4 @@
-//! The patrol mission of 187 m (Lambert et al. 2024, Section 6): planned, watched, planned again
+//! The patrol mission of 187 m (Lambert et al. 2024, Section 4.2): planned, watched, planned again
 //! when a margin falls below zero or hardware is lost.
 
 use crate::trace::{Sink, Trace};
@@ -56,7 +56,7 @@ impl Workspace {
     }
 }
 
-/// Who plans.
+/// The planner.
 #[derive(Debug)]
 pub enum Planner<'w> {
     /// The rule of the paper.
@@ -164,7 +164,8 @@ impl Patrol {
     ) -> Option<([u64; 2], u64)> {
         let mut lists = [&[][..]; STAGES];
         let left = ACTIVITIES.get(self.first..)?;
-        let lists = remaining(left, self.rest, self.available, &mut tables.0, &mut lists).ok()?;
+        let lists =
+            remaining(left, Some(self.rest), self.available, &mut tables.0, &mut lists).ok()?;
         let problem = Problem::new(lists, self.monitor.left(), ORDER).ok()?;
         let answer = allocator.allocate(&problem, self.plan.get_mut(self.first..)?).ok()?;
         let Answer::Planned(planned) = answer else { return None };

@@ -22,13 +22,13 @@ use cotama_models::cotama::NoPlans;
 use cotama_models::missions::tables::Rest;
 use cotama_models::missions::tables::patrol::ACTIVITIES;
 
-/// What is seen in a period.
+/// A frame with the news of a period.
 pub const PERIOD: u8 = 0;
 /// A plan.
 pub const PLAN: u8 = 1;
 /// Frames are missing: their number, `u16`.
 pub const MISSING: u8 = 2;
-/// What was received stands for nothing.
+/// The received content stands for nothing.
 pub const UNKNOWN: u8 = 3;
 
 /// The robot behind its UART.
@@ -41,7 +41,7 @@ pub struct Server {
     now: Millis,
 }
 
-/// What was done with a frame.
+/// The action of the server on a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Served {
     /// A period went by: what is to be stored may have changed.
@@ -108,16 +108,16 @@ impl Server {
 pub struct Asked {
     /// The activity under way.
     pub first: u8,
-    /// What is left of it, in mm of travel or ms.
+    /// Rest of the activity, in mm of travel or ms.
     pub rest: u32,
     /// The hardware that there is: [`Equipment::to_bits`], of which this mission needs 32.
     pub hardware: u32,
-    /// What was used, in ms and mJ.
+    /// Amounts used, in ms and mJ.
     pub used: [u32; 2],
 }
 
 impl Asked {
-    /// Its length as bytes.
+    /// Length in bytes.
     pub const BYTES: usize = 17;
 
     /// As bytes, little endian.

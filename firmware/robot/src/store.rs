@@ -14,6 +14,10 @@ pub const LONGEST: usize = 240;
 /// Length, number and their checksum.
 const HEAD: usize = 12;
 const TAIL: usize = 4;
+/// The most bytes that a flash reads or writes at once.
+const UNIT: usize = 16;
+/// Room for a record, and for what is read or written behind it to fill a unit.
+const ROOM: usize = HEAD + LONGEST + TAIL + UNIT;
 
 /// A store in the first two pages of a flash.
 #[derive(Debug)]
@@ -38,7 +42,18 @@ const fn later(number: u32, than: u32) -> bool {
 }
 
 impl<F: NorFlash> Store<F> {
-    const PAGE: u32 = F::ERASE_SIZE as u32;
+    const PAGE: u32 = {
+        assert!(
+            F::READ_SIZE <= UNIT && F::WRITE_SIZE <= UNIT,
+            "the flash reads or writes more than 16 bytes at once"
+        );
+        assert!(
+            F::ERASE_SIZE.is_multiple_of(F::READ_SIZE)
+                && F::ERASE_SIZE.is_multiple_of(F::WRITE_SIZE),
+            "a page of the flash is no whole number of what it reads or writes at once"
+        );
+        F::ERASE_SIZE as u32
+    };
 
     /// Looks for the last whole record, and copies its content; `None` when there is none.
     #[inline(never)]
@@ -74,7 +89,7 @@ impl<F: NorFlash> Store<F> {
     #[inline(never)]
     pub fn write(&mut self, content: &[u8]) -> Result<(), StoreError<F::Error>> {
         let whole = (HEAD + content.len() + TAIL).next_multiple_of(F::WRITE_SIZE);
-        let mut bytes = [0; HEAD + LONGEST + TAIL + 16];
+        let mut bytes = [0; ROOM];
         if content.len() > LONGEST || whole > F::ERASE_SIZE || whole > bytes.len() {
             return Err(StoreError::TooLong);
         }
@@ -100,8 +115,9 @@ impl<F: NorFlash> Store<F> {
     /// The record of a page: its number, and the length of its content.
     fn read(&mut self, page: u32, content: &mut [u8; LONGEST]) -> Option<(u32, usize)> {
         let start = page * Self::PAGE;
-        let mut bytes = [0; HEAD + LONGEST + TAIL];
-        self.flash.read(start, &mut bytes[..HEAD]).ok()?;
+        let mut bytes = [0; ROOM];
+        let whole = |length: usize| length.next_multiple_of(F::READ_SIZE);
+        self.flash.read(start, bytes.get_mut(..whole(HEAD))?).ok()?;
         let word = |bytes: &[u8], at: usize| {
             bytes.get(at..)?.first_chunk().map(|it| u32::from_le_bytes(*it))
         };
@@ -113,7 +129,7 @@ impl<F: NorFlash> Store<F> {
             return None;
         }
         let end = HEAD + length;
-        self.flash.read(start, &mut bytes[..end + TAIL]).ok()?;
+        self.flash.read(start, bytes.get_mut(..whole(end + TAIL))?).ok()?;
         if word(&bytes, end)? != crc32(&bytes[..end]) {
             return None;
         }

@@ -22,9 +22,9 @@ const SHOWN: u8 = 30;
 /// A failure on the way.
 #[derive(Clone, Copy, Debug)]
 pub struct Incident {
-    /// Where on the way of both drives it begins, in mm.
+    /// Start on the path of both drives, in mm.
     pub at_mm: u64,
-    /// What it raises.
+    /// The failure mode whose flags it raises.
     pub mode: FailureMode,
     /// The module that it is about, where that is not clear from the flags.
     pub part: Modules,
@@ -73,7 +73,7 @@ impl<'i> Surroundings<'i> {
         }
     }
 
-    /// What the loop is given now.
+    /// Returns the input of the loop now.
     pub fn before(&mut self, now: Millis, control: &Control) -> Period {
         let decider = control.decider();
         let place = (decider.global().0, decider.situation().local);
@@ -103,7 +103,7 @@ impl<'i> Surroundings<'i> {
         Period { seen, body, said: self.says(now, body) }
     }
 
-    /// What the robot did with its requests.
+    /// Moves the robot by the requests.
     pub fn after(&mut self, requests: &Requests) {
         let speed = if requests.drive && !requests.halt { requests.speed.0 } else { 0 };
         let moved = speed * u64::from(requests.adjusted.speed) / 1_000 * PERIOD_MS / 1_000;
@@ -152,7 +152,7 @@ impl Noise {
         Self { dice: Dice::new(seed), up: Flags::NONE, works: Modules::ALL }
     }
 
-    /// What the loop is given now.
+    /// Returns the input of the loop now.
     pub fn period(&mut self) -> Period {
         let dice = &mut self.dice;
         let mut seen = Perceived::nothing(self.works);

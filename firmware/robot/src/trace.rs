@@ -1,4 +1,4 @@
-//! What a run leaves behind: records of bytes, the same on every machine.
+//! The trace of a run: records of bytes, the same on every machine.
 //!
 //! A record is a byte for its kind and fields of fixed width, little endian:
 //!
@@ -22,7 +22,7 @@ use cotama_core::net::{EventId, TransitionId};
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
 
-/// Where bytes go: a UART, a file.
+/// A destination of bytes: a UART, a file.
 pub trait Sink {
     /// Nobody reads it: no record is made.
     const IGNORES: bool = false;
@@ -31,7 +31,7 @@ pub trait Sink {
     fn put(&mut self, bytes: &[u8]);
 }
 
-/// Where nobody reads: a robot at work.
+/// A sink without reader: a robot at work.
 #[derive(Clone, Copy, Debug)]
 pub struct Nowhere;
 
@@ -117,7 +117,7 @@ impl<'s, S: Sink> Trace<'s, S> {
             .put(&modes.to_le_bytes());
     }
 
-    /// What is requested now has changed.
+    /// Records that the requests have changed.
     pub fn requests(&mut self, at: Millis, configuration: u8, bits: u8, speed: u32, of: [u16; 2]) {
         self.at(b'R', at)
             .put(&[configuration, bits])
@@ -145,17 +145,17 @@ impl<'s, S: Sink> Trace<'s, S> {
         self.put(b"H").put(&at_us.to_le_bytes()).put(&[task as u8, what]);
     }
 
-    /// What a net of ACE made of an event, and its state then.
+    /// Records the outcome of an event in a net of ACE, and its state then.
     pub fn outcome(&mut self, net: u8, what: u8, state: u8) {
         self.put(&[b'O', net, what, state]);
     }
 
-    /// What was found in flash.
+    /// Records the state found in flash.
     pub fn restored(&mut self, what: u8, number: u32) {
         self.put(&[b'B', what]).put(&number.to_le_bytes());
     }
 
-    /// What the receiver made of bytes.
+    /// Records the receiver's result of bytes.
     pub fn frame(&mut self, what: u8, number: u32) {
         self.put(&[b'L', what]).put(&number.to_le_bytes());
     }

@@ -84,9 +84,9 @@ fn read_frames(bytes: &[u8]) -> bool {
     !contents.is_empty()
 }
 
-/// What is asked of a server: a first byte that says who plans, then contents, each behind its
-/// length. Whether something was answered but that it is unknown. All answers are frames; what is
-/// read of a content is written as it was; and the state can be stored.
+/// Reads requests to a server: a first byte for the planner, then contents, each behind its length.
+/// Returns whether anything was answered but that the request is unknown. All answers are frames; a
+/// content that is read is written as it was; and the state can be stored.
 fn read_served(bytes: &[u8]) -> bool {
     let Some((&exactly, mut rest)) = bytes.split_first() else { return false };
     let (mut server, mut sender) = (Server::default(), Sender::default());
@@ -123,8 +123,8 @@ fn goes_on(control: &mut Control, seed: u64) {
     }
 }
 
-/// That what was stored is restored as it is, and goes on; or that it is refused and nothing
-/// changes. Whether it was restored.
+/// Checks that a stored state is restored as it was, and goes on; or that it is refused and nothing
+/// changes. Returns whether it was restored.
 fn restored(bytes: &[u8]) -> bool {
     let mut control = Control::default();
     let before = control.store();
@@ -138,16 +138,17 @@ fn restored(bytes: &[u8]) -> bool {
     true
 }
 
-/// A state as it is; then as long as it must be with the checksum that the supervisors must have.
+/// A state as it is; then as long as it must be with the checksums that it must have.
 fn read_state(bytes: &[u8]) -> bool {
     let _ = restored(bytes);
     let mut whole = [0; STORED_BYTES];
     for (to, &from) in whole.iter_mut().zip(bytes) {
         *to = from;
     }
-    let (level, _) = whole.split_at_mut(STORED_BYTES - 10);
-    let (content, checksum) = level.split_last_chunk_mut::<4>().expect("it is longer");
-    *checksum = crc32(content).to_le_bytes();
+    for (from, to) in [(0, STORED_BYTES - 18), (STORED_BYTES - 18, STORED_BYTES - 4)] {
+        let checksum = crc32(&whole[from..to]);
+        whole[to..to + 4].copy_from_slice(&checksum.to_le_bytes());
+    }
     restored(&whole)
 }
 
@@ -205,7 +206,7 @@ fn read_flash(bytes: &[u8]) -> bool {
 
 /// The corpora: frames, a session, two states and two flashes.
 #[test]
-fn the_corpora_are_what_the_robot_writes() {
+fn the_corpora_are_files_of_the_robot() {
     let mut noise = Noise::new(7);
     let period = |noise: &mut Noise| [&[PERIOD][..], &noise.period().to_bytes()].concat();
     let asked = Asked { first: 0, rest: 31_000, hardware: 0x1121, used: [0; 2] };

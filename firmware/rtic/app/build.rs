@@ -1,4 +1,4 @@
-//! Where the linker finds the memory, and what it makes of it.
+//! Puts the memory layout where the linker finds it.
 
 fn main() {
     println!("cargo:rerun-if-changed=../memory.x");

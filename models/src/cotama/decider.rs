@@ -6,7 +6,7 @@
 //!
 //! 1. [`Decider::perceive`]: flags are diagnosed (Durand et al., TAROS 2010, Section V.A), a
 //!    diagnosis is judged (Sections III.C and V.B), what is lost is planned around, margins are
-//!    watched (Lambert et al. 2024, Section 5), and what has returned is used again;
+//!    watched (Lambert et al. 2024, Section 7.3), and what has returned is used again;
 //! 2. [`Decider::round`]: the supervisors take a round and are then told *one* thing, the oldest
 //!    report first, else what the mission or the operator has to say. So a run is a run of the
 //!    system that was checked: [`Told`] is its alphabet;
@@ -45,7 +45,7 @@ use super::decisions::{Losses, Situation};
 use super::dependability::{Adjusted, FailureMode, FailureModes, Flags};
 use super::level::{Cause, Level, Permit, Told};
 use super::modules::{Configuration, Health, Modules};
-use super::supervisors::{faults, global, local, operator};
+use super::supervisors::{delivery, faults, global, local, operator};
 use cotama_core::net::PlaceId;
 use cotama_core::player::{Observer, Program};
 use cotama_core::units::{MillimetresPerSecond, Millis};
@@ -69,7 +69,7 @@ pub const PATIENCE: Millis = Millis(120_000);
 /// takes (assumed).
 pub const PATIENCE_WITH_PLANNER: Millis = Millis(7_000);
 
-/// What observers and the scheduler tell in a period.
+/// The news of observers and the scheduler in a period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Perceived {
     /// Flags that are raised now.
@@ -90,12 +90,12 @@ impl Perceived {
     }
 }
 
-/// Where the robot is.
+/// State of the drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Body {
     /// The goal of the drive is reached.
     pub at_goal: bool,
-    /// It does not move.
+    /// The robot does not move.
     pub stands: bool,
 }
 
@@ -129,7 +129,7 @@ impl Word {
     }
 }
 
-/// What is to be done now; it holds until the next round.
+/// The requests to the robot now; they hold until the next round.
 #[allow(clippy::struct_excessive_bools, reason = "each goes to another part of the robot")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Requests {
@@ -139,7 +139,7 @@ pub struct Requests {
     pub drive: bool,
     /// The fastest it may go.
     pub speed: MillimetresPerSecond,
-    /// What adapted settings leave of speed and quality.
+    /// The factors that adapted settings leave of speed and quality.
     pub adjusted: Adjusted,
     /// Motor power is to be cut for good.
     pub halt: bool,
@@ -157,7 +157,7 @@ pub struct Decider<P, const W: usize, const C: usize, const S: usize> {
     /// How many objectives the mission has.
     objectives: u32,
     now: Millis,
-    /// Where the supervisors were at the end of the last round.
+    /// The situation at the end of the last round.
     situation: Situation,
     global: PlaceId,
     /// Since when the local supervisor is where it is, or the planner was started again.
@@ -166,15 +166,16 @@ pub struct Decider<P, const W: usize, const C: usize, const S: usize> {
     stands_since: Millis,
     /// Flags that are raised.
     up: Flags,
-    /// What was diagnosed, and of each row since which finding and of which module.
+    /// The failure modes diagnosed, and of each row the first finding and the module.
     found: FailureModes,
     origin: [Origin; FailureMode::ALL.len()],
     findings: u16,
-    /// What is diagnosed to be broken.
+    /// The parts diagnosed to be broken.
     known: Known,
     settings: Settings,
     returns: Option<Returns>,
-    /// What the supervisors take for lost: what is diagnosed, and what the plan does without.
+    /// The losses that the supervisors reckon with: those diagnosed, and those that the plan
+    /// chooses.
     lost: Losses,
     untold: Pending<Told, Cause>,
     plannings_failed: u32,
@@ -182,7 +183,15 @@ pub struct Decider<P, const W: usize, const C: usize, const S: usize> {
     resigned: bool,
 }
 
-/// What is known to be broken, and what follows from it; both change rarely.
+/// The decisional level of the delivery, from flags to requests.
+pub type DeliveryDecider = Decider<
+    delivery::Program,
+    { delivery::SIZE.words },
+    { delivery::SIZE.clocks },
+    { delivery::SIZE.slots },
+>;
+
+/// The parts known to be broken, and the consequences; both change rarely.
 #[derive(Clone, Copy, Debug)]
 struct Known {
     health: Health,
@@ -196,7 +205,7 @@ impl From<Health> for Known {
     }
 }
 
-/// Where a diagnosis comes from.
+/// The origin of a diagnosis.
 #[derive(Clone, Copy, Debug, Default)]
 struct Origin {
     cause: Cause,
@@ -238,7 +247,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         }
     }
 
-    /// What returns is used again: only with the supervisors of
+    /// Lets modules that return be used again: only with the supervisors of
     /// [`recovering`](crate::cotama::recovering).
     #[must_use]
     pub fn with_returns(self) -> Self {
@@ -309,7 +318,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         round
     }
 
-    /// What is to be done now.
+    /// Returns the requests to the robot now.
     pub fn requests(&self) -> Requests {
         let drive = self.level.permit().is_some();
         let configuration = self.situation.configuration();
@@ -325,7 +334,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         }
     }
 
-    /// What it tells the supervisors when no failure is to be told.
+    /// Returns the event for the supervisors when no failure waits to be reported.
     fn word(&mut self, said: Option<Word>, body: Body) -> (Option<(Told, Cause)>, Option<Finding>) {
         use local::State::{Following, HandOver, Planning, Teleoperated, Teleprogrammed};
         let passed = |since: Millis| self.now.0.saturating_sub(since.0);
@@ -368,7 +377,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         self.global
     }
 
-    /// Where the supervisors of a drive were at the end of the last round.
+    /// Returns the situation of the supervisors of a drive at the end of the last round.
     pub const fn situation(&self) -> Situation {
         self.situation
     }
@@ -383,7 +392,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         self.plannings_failed
     }
 
-    /// What is known to be broken; the next mission [resumes](Self::resume) with it.
+    /// Returns the health known so far; the next mission [resumes](Self::resume) with it.
     #[must_use]
     pub const fn health(&self) -> Health {
         self.known.health
@@ -395,17 +404,17 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         self.known.available
     }
 
-    /// Those of them that can be relied on: somebody would see them fail.
+    /// Returns the available modules that can be relied on: an observer would see them fail.
     #[must_use]
     pub const fn relied_on(&self) -> Modules {
         self.known.relied_on
     }
 }
 
-/// What a round came to.
+/// The outcome of a round.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Round {
-    /// What the supervisors were told.
+    /// The event that the supervisors accepted.
     pub told: Option<Told>,
     /// The operator is silent for too long.
     pub finding: Option<Finding>,

@@ -1,6 +1,6 @@
 //! How well a fact of the reconstruction is known.
 
-/// Where a fact comes from. No fact of this module is without one.
+/// The source of a fact. No fact of this module is without one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Label {
     /// Said in a publication: Durand et al., TAROS 2010, where no other work is named.
@@ -12,7 +12,7 @@ pub enum Label {
 }
 
 impl Label {
-    /// Its name in print.
+    /// Returns the name in print.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Stated => "stated",

@@ -1,7 +1,6 @@
 //! The decisional level with names in place of numbers: what the robot tells it, and what it
 //! decided.
 
-use super::decider::Decider;
 use super::decisions::{Loss, Losses, Situation};
 use super::modules::{Health, Module, Modules};
 use super::supervisors::{
@@ -16,8 +15,8 @@ use cotama_core::player::{
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
 
-/// What an event goes back to: a number that the caller chose, for example the position of a fault
-/// in its list. It travels with everything that is done because of the event.
+/// The cause of an event: a number that the caller chose, for example the position of a fault in
+/// its list. It travels with everything that is done because of the event.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cause(pub u16);
 
@@ -38,7 +37,7 @@ impl Stored for Cause {
 /// [`global`].
 pub(crate) const WAIT_OVER: EventId = EventId(global::NET.events.len() as u32);
 
-/// What returns, as far as the supervisors tell it apart.
+/// A function that returns, as far as the supervisors tell it apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Return {
     /// The sonars.
@@ -86,8 +85,8 @@ impl Return {
     }
 }
 
-/// What the level is told. Each is an event that no supervisor causes; one a round keeps the runs
-/// those that were checked.
+/// An event that the level accepts. Each is an event that no supervisor causes; one a round keeps
+/// the runs those that were checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Told {
     /// The mission, or what becomes of it.
@@ -95,7 +94,7 @@ pub enum Told {
     /// The time to wait is over: only of missions in which the robot waits, whose global supervisor
     /// is made from their file.
     WaitOver,
-    /// What becomes of a drive: a path is there, the goal is reached.
+    /// News of a drive: a path is there, the goal is reached.
     Drive(local::Event),
     /// A failure was diagnosed.
     Failure(faults::Event),
@@ -129,7 +128,7 @@ impl Told {
         })
     }
 
-    /// Its event in [`delivery`](delivery::SYSTEM).
+    /// Returns the event in [`delivery`](delivery::SYSTEM).
     pub fn event(&self) -> Of<EventId> {
         match *self {
             Self::Mission(event) => delivery::Event::gs(event).id(),
@@ -187,14 +186,6 @@ pub type DecisionalLevel = Level<
     { delivery::SIZE.slots },
 >;
 
-/// All of it, from flags to requests.
-pub type DeliveryDecider = Decider<
-    delivery::Program,
-    { delivery::SIZE.words },
-    { delivery::SIZE.clocks },
-    { delivery::SIZE.slots },
->;
-
 impl Default for DecisionalLevel {
     fn default() -> Self {
         Self(delivery::Carrying::new())
@@ -243,7 +234,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Level<
         marked.next().unwrap_or(PlaceId(0))
     }
 
-    /// Where the supervisors of a drive are, with these losses.
+    /// Returns the situation of the supervisors of a drive, with these losses.
     pub fn situation(&self, lost: Losses) -> Situation {
         let local = delivery::state::ls(&self.0);
         let following = delivery::state::pf(&self.0);
@@ -282,7 +273,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Level<
         &self.0
     }
 
-    /// Where the supervisors are, to be stored before the power goes.
+    /// Returns the state of the supervisors, to be stored before the power goes.
     pub fn snapshot(&self) -> Snapshot<W, C, S, Cause> {
         self.0.snapshot()
     }

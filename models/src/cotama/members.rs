@@ -18,12 +18,12 @@ macro_rules! members {
             /// All of them, in the order of their declaration.
             pub const ALL: &'static [Self] = &[$(Self::$member),+];
 
-            /// Its name in print.
+            /// Returns the name in print.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$member => $name,)+ }
             }
 
-            /// What it is, in words: its documentation.
+            /// Returns the documentation.
             pub const fn doc(self) -> &'static str {
                 match self { $(Self::$member => concat!($($doc),+).trim_ascii(),)+ }
             }
@@ -44,7 +44,7 @@ macro_rules! members {
             /// All there are.
             pub const ALL: Self = Self(<$bits>::MAX >> (<$bits>::BITS as usize - $item::ALL.len()));
 
-            /// Those of the list.
+            /// Makes the set of the list's items.
             #[must_use]
             pub const fn of(list: &[$item]) -> Self {
                 let (mut set, mut at) = (Self::NONE, 0);
@@ -67,13 +67,13 @@ macro_rules! members {
                 Self(self.0 & !other.0)
             }
 
-            /// What is in either.
+            /// Returns the union.
             #[must_use]
             pub const fn union(self, other: Self) -> Self {
                 Self(self.0 | other.0)
             }
 
-            /// What is in both.
+            /// Returns the intersection.
             #[must_use]
             pub const fn common(self, other: Self) -> Self {
                 Self(self.0 & other.0)
@@ -120,7 +120,7 @@ macro_rules! members {
                 if bits & !Self::ALL.0 == 0 { Some(Self(bits)) } else { None }
             }
 
-            /// Its members in the order of declaration.
+            /// Iterates over the members in the order of declaration.
             pub fn iter(self) -> impl Iterator<Item = $item> {
                 $item::ALL.iter().copied().filter(move |&one| self.has(one))
             }

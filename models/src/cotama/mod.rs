@@ -13,6 +13,7 @@
 mod decider;
 mod decisions;
 mod dependability;
+mod drive;
 mod label;
 mod level;
 mod members;
@@ -23,15 +24,16 @@ mod requirements;
 mod supervisors;
 
 pub use decider::{
-    Body, Decider, Finding, Judged, NoPlanLeft, NoPlans, PATIENCE, PATIENCE_WITH_PLANNER,
-    Perceived, Plans, Requests, Round, Why, Word,
+    Body, Decider, DeliveryDecider, Finding, Judged, NoPlanLeft, NoPlans, PATIENCE,
+    PATIENCE_WITH_PLANNER, Perceived, Plans, Requests, Round, Why, Word,
 };
 pub use decisions::*;
 pub use dependability::*;
+pub use drive::{ACCELERATION, PLANNING, drive_ms};
 pub use label::Label;
 #[cfg(feature = "std")]
 pub(crate) use level::WAIT_OVER;
-pub use level::{Cause, DecisionalLevel, DeliveryDecider, Level, Permit, Return, Told};
+pub use level::{Cause, DecisionalLevel, Level, Permit, Return, Told};
 pub use modules::*;
 pub use requirements::*;
 pub use supervisors::*;

@@ -22,11 +22,11 @@ fn any_health() -> Health {
     Health { faulty, lost: if kani::any() { lost } else { Resources::NONE }, ..Health::SOUND }
 }
 
-/// What is available is closed under needs, and is all that can be: a module runs exactly when it
-/// is sound, its hardware is there, and what it needs runs.
+/// The set of available modules is closed under needs, and as large as can be: a module runs
+/// exactly when it is sound, its hardware is there, and the modules it needs run.
 #[kani::proof]
 #[kani::unwind(22)]
-pub fn what_is_available_is_closed() {
+pub fn the_available_modules_are_closed_under_needs() {
     let health = any_health();
     let runs = available(health.faulty, health.lost);
     for it in &MODULES {
@@ -126,15 +126,15 @@ pub fn a_decision_is_made_in_every_situation() {
         Decision::AdaptAvoidance => assert!(report == Report::Avoidance),
         Decision::Record | Decision::Global => {}
     }
-    // Where the places fit together, nobody is disturbed at rest but by a vital loss.
+    // If the places fit together, only a vital loss disturbs a robot at rest.
     let disturbs = decision != Decision::Record && report != Report::Vital;
     assert!(!(situation.is_consistent() && at_rest && disturbs));
     kani::cover!(decision == Decision::AdaptRt, "fewer particles");
     kani::cover!(decision == Decision::Global && report == Report::Hard, "nobody can be asked");
 }
 
-/// Where the places fit together and earlier losses are answered, the table decides as the two
-/// rules of severity and availability do, but for the seven cells that it names.
+/// The table decides as the two rules of severity and availability do, but for the seven cells that
+/// it names, if the places fit together and earlier losses are answered.
 #[kani::proof]
 #[kani::unwind(22)]
 pub fn the_table_follows_from_the_rules() {
@@ -155,7 +155,7 @@ pub fn the_table_follows_from_the_rules() {
     kani::cover!(table == rules && table.class() == Class::Adapter, "an adaptation");
 }
 
-/// What the level can be told, as the scenarios of a drive have it.
+/// Draws an event that the level accepts, as the scenarios of a drive have it.
 fn any_told() -> Told {
     let told = [
         Told::Drive(local::Event::goal_reached),

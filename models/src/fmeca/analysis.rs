@@ -27,20 +27,20 @@ pub struct Analysis {
 /// Something that an observer sees.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Flag {
-    /// Its name, unique.
+    /// Name of the flag, unique.
     pub name: String,
-    /// What was seen, in words; may be empty.
+    /// Meaning of the flag, in words; may be empty.
     pub doc: String,
-    /// Who sees it; may be empty.
+    /// The observer that raises it, in words; may be empty.
     pub observer: String,
 }
 
 /// An observation that could be added.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Probe {
-    /// Its name, unique.
+    /// Name of the probe, unique.
     pub name: String,
-    /// Who would observe what; may be empty.
+    /// The observer and its observation, in words; may be empty.
     pub doc: String,
     /// The places of the failure modes that it would show.
     pub shows: Set,
@@ -49,17 +49,17 @@ pub struct Probe {
 /// A failure mode: a row. Words that a file may leave out are empty then.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mode {
-    /// Its id, unique.
+    /// Id of the row, unique.
     pub id: String,
     /// The function that suffers.
     pub function: String,
     /// The component that fails.
     pub component: String,
-    /// How it fails.
+    /// The failure, in words.
     pub failure: String,
-    /// Why.
+    /// The cause, in words.
     pub cause: String,
-    /// With what effect.
+    /// The effect, in words.
     pub effect: String,
     /// How severe it is; while the robot drives itself where there is a second severity.
     pub severity: Severity,
@@ -67,9 +67,9 @@ pub struct Mode {
     pub severity_operator: Option<Severity>,
     /// How long it stays.
     pub persistence: Option<Persistence>,
-    /// What is lost with it, in words.
+    /// The functions lost with it, in words.
     pub lost: String,
-    /// Who sees it, in words.
+    /// The observer that sees it, in words.
     pub observer: String,
     /// How it is seen, in words.
     pub detection: String,
@@ -81,11 +81,11 @@ pub struct Mode {
     pub sometimes: Set,
     /// Why nothing sees it, where that is said.
     pub silent: Option<String>,
-    /// Its detection rank, from 1 to 10, in place of the one by the table.
+    /// Detection rank, from 1 to 10, in place of the one by the table.
     pub detection_rank: Option<u8>,
-    /// Who gets its event, in words.
+    /// The receiver of its event, in words.
     pub event: String,
-    /// What is done.
+    /// The reaction, in words.
     pub reaction: String,
     /// The mean time between failures of this mode, or, with `alpha_permille`, of its component, in
     /// thousandths of an hour; at least 1.
@@ -96,7 +96,7 @@ pub struct Mode {
     pub beta_permille: Option<u16>,
     /// How well the rate is known.
     pub rate_label: Label,
-    /// Where the rate comes from.
+    /// Source of the rate.
     pub rate_source: String,
     /// How the failure is injected in tests.
     pub injection: String,
@@ -107,12 +107,12 @@ pub struct Mode {
 pub struct Rib<'a> {
     /// The component that fails.
     pub component: &'a str,
-    /// Its failure modes, in the order of the rows.
+    /// The failure modes, in the order of the rows.
     pub modes: Vec<&'a Mode>,
 }
 
 impl Analysis {
-    /// What it is about.
+    /// Returns the subject of the analysis.
     pub fn title(&self) -> &str {
         &self.title
     }

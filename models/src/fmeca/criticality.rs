@@ -45,7 +45,7 @@ macro_rules! classes {
             /// All of them, the best one first.
             pub const ALL: &'static [Self] = &[$(Self::$member),+];
 
-            /// Its name in print.
+            /// Returns the name in print.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$member => $name,)+ }
             }
@@ -154,7 +154,7 @@ impl Criticality {
         self.severity as u16 * self.occurrence as u16 * self.detection as u16
     }
 
-    /// Its field of the criticality matrix.
+    /// Returns the field of the criticality matrix.
     pub const fn class(self) -> CriticalityClass {
         CriticalityClass::of(self.occurrence_class, self.severity_class)
     }

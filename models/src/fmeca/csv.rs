@@ -14,7 +14,9 @@ pub const COLUMNS: &str = "id,function,component,failure_mode,cause,effect,\
 
 impl Analysis {
     /// Comma-separated values: a heading and one line a row, fields quoted where they must be (RFC
-    /// 4180, with plain line ends). Names in a list stand between `;`.
+    /// 4180, with plain line ends). Names in a list stand between `;`. A text that a spreadsheet
+    /// would take for a formula, because it begins with `=`, `+`, `-` or `@` and is no number,
+    /// stands behind an apostrophe, which [`parse_csv`](Self::parse_csv) takes away.
     ///
     /// ```
     /// use cotama_models::fmeca::{Analysis, COLUMNS};
@@ -70,19 +72,35 @@ impl Analysis {
         ]
     }
 
-    /// Names in a list, by the alphabet; one with a space is no list of two names where a `;`
-    /// follows it.
+    /// Names in a list, by the alphabet; one that could be several is one where a `;` follows it.
     fn list(&self, flags: &Set) -> String {
         let mut names = self.names(flags);
         names.sort_unstable();
         match names.as_slice() {
-            [one] if one.contains(' ') => format!("{one};"),
+            [one] if one.contains(is_between) => format!("{one};"),
             names => names.join("; "),
         }
     }
 }
 
+/// Whether a letter stands between names in the lists of some tables, and within names of others.
+pub(super) fn is_between(letter: char) -> bool {
+    matches!(letter, ' ' | ',' | '|' | '+' | '&' | '，' | '、' | '；')
+}
+
+/// Whether a spreadsheet would take a text for a formula; numbers and a lone `-` are none.
+pub(super) fn is_formula(text: &str) -> bool {
+    let begins = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
+    let signed =
+        text.get(1..).is_some_and(|it| it.starts_with(|c: char| c.is_ascii_digit() || c == '.'));
+    begins && text != "-" && !(signed && text.parse::<f64>().is_ok())
+}
+
+/// A field as it is written. Behind an apostrophe a spreadsheet shows a text as it is; the reader
+/// of analyses takes it away again.
 fn quoted(field: String) -> String {
+    let inert = is_formula(field.trim_start_matches('\''));
+    let field = if inert { format!("'{field}") } else { field };
     if field.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", field.replace('"', "\"\""))
     } else {
@@ -99,4 +117,46 @@ fn thousandths(number: u64) -> String {
         text.truncate(text.trim_end_matches('0').len());
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+    use crate::fmeca::Analysis;
+
+    #[test]
+    fn a_formula_stands_behind_an_apostrophe_and_a_number_does_not() {
+        for (field, written) in [
+            ("=1+2", "'=1+2"),
+            ("+SUM(A1)", "'+SUM(A1)"),
+            ("-cmd|x", "'-cmd|x"),
+            ("@it", "'@it"),
+            ("-", "-"),
+            ("\tx", "'\tx"),
+            ("'=x", "''=x"),
+            ("=a,b", "\"'=a,b\""),
+            ("-inf", "'-inf"),
+            ("-5", "-5"),
+            ("+3.2", "+3.2"),
+            ("-.5e1", "-.5e1"),
+            ("it's", "it's"),
+            ("a=b", "a=b"),
+            ("", ""),
+        ] {
+            assert_eq!(quoted(field.to_owned()), written);
+        }
+    }
+
+    #[test]
+    fn a_text_like_a_formula_is_read_back_as_it_was() {
+        let csv = Analysis::of_the_robot().to_csv();
+        let effect = csv.lines().nth(1).unwrap().split(',').nth(5).unwrap().to_owned();
+        for text in ["=1+2", "@x", "-stop", "+go", "'=x", "''-", "it's"] {
+            let analysis = csv.replacen(&effect, &quoted(text.to_owned()), 1);
+            let read = Analysis::parse_csv("it.csv", &analysis).unwrap();
+            assert_eq!(read.modes()[0].effect, text);
+            let again = Analysis::parse_csv("it.csv", &read.to_csv()).unwrap();
+            assert_eq!(again.modes()[0].effect, text);
+        }
+    }
 }

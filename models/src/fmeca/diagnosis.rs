@@ -12,7 +12,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The most pairs that are told; the rest are counted.
 pub const MAX_PAIRS: usize = 10_000;
 
-/// What can happen, be raised and be added when an analysis is looked at.
+/// A status of the robot: the flags, failure modes and probes that are possible when an analysis is
+/// looked at.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Status {
     /// As `sound`.
@@ -25,7 +26,7 @@ pub struct Status {
     pub probes: Set,
 }
 
-/// What can be told in a status; numbers are places in the lists of the analysis.
+/// The diagnosability in a status; numbers are places in the lists of the analysis.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnosability {
     /// Failure modes that can happen and always raise a flag.
@@ -101,7 +102,7 @@ impl Analysis {
         widest.covers(&fewest).then_some((fewest, widest))
     }
 
-    /// What can be told in a status.
+    /// Returns the failure modes that can be detected and told from each other in a status.
     ///
     /// ```
     /// use cotama_models::fmeca::Analysis;

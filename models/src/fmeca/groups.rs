@@ -44,7 +44,7 @@ impl Search<'_> {
     fn grow(&mut self, group: &mut Vec<usize>, mut open: Set, mut done: Set) -> bool {
         let before = group.len();
         let mut pivot = None;
-        // Who is near to all others belongs to every group, which needs no branch.
+        // A node near all others belongs to every group, which needs no branch.
         loop {
             let mut most = None;
             for at in open.iter().chain(done.iter()) {

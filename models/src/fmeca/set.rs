@@ -54,19 +54,19 @@ impl Set {
         Self(self.0.iter().zip(&other.0).map(|(&one, &other)| word(one, other)).collect())
     }
 
-    /// What is in either.
+    /// Returns the union.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
         self.with(other, |one, other| one | other)
     }
 
-    /// What is in both.
+    /// Returns the intersection.
     #[must_use]
     pub fn common(&self, other: &Self) -> Self {
         self.with(other, |one, other| one & other)
     }
 
-    /// What is in this one and not in the other.
+    /// Returns the members of this set that are not in the other.
     #[must_use]
     pub fn without(&self, other: &Self) -> Self {
         self.with(other, |one, other| one & !other)
@@ -89,7 +89,7 @@ impl Set {
         self.0.iter().map(|word| word.count_ones() as usize).sum()
     }
 
-    /// Its places, the first one first.
+    /// Iterates over the places in the set, the first one first.
     pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
         self.0.iter().enumerate().flat_map(|(at, &word)| {
             (0..64).filter(move |bit| word & (1 << bit) != 0).map(move |bit| at * 64 + bit)

@@ -1,4 +1,4 @@
-//! What a `panorama-mission/1` file says, as data with units.
+//! The contents of a `panorama-mission/1` file, as data with units.
 
 use super::diagnostic::Spanned;
 use super::faults::Run;
@@ -43,7 +43,7 @@ impl Task {
         Self::Wait,
     ];
 
-    /// Its name in mission files.
+    /// Returns the name in mission files.
     pub const fn name(self) -> &'static str {
         Self::NAMES[self as usize]
     }
@@ -58,7 +58,7 @@ impl Task {
     }
 }
 
-/// Who decides while the mission runs.
+/// The supervisors that decide while the mission runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Supervision {
     /// The supervisors of COTAMA (Durand et al., TAROS 2010).
@@ -70,16 +70,17 @@ impl Supervision {
     pub const NAMES: [&str; 1] = ["cotama"];
 }
 
-/// What an objective is to its supervisor (Durand et al., TAROS 2010, Sections IV.A.1 and V.C.1).
+/// The kind of an objective for its supervisor (Durand et al., TAROS 2010, Sections IV.A.1 and
+/// V.C.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Does {
-    /// It drives along the path.
+    /// The robot drives along the path.
     Drive,
-    /// It waits until an object is on board.
+    /// The robot waits until an object is on board.
     Receive,
-    /// It hands the object over.
+    /// The robot hands the object over.
     Deliver,
-    /// It waits for a time.
+    /// The robot waits for a time.
     Wait,
 }
 
@@ -89,7 +90,7 @@ impl Does {
 
     pub(super) const ALL: [Self; 4] = [Self::Drive, Self::Receive, Self::Deliver, Self::Wait];
 
-    /// Its name in mission files.
+    /// Returns the name in mission files.
     pub const fn name(self) -> &'static str {
         Self::NAMES[self as usize]
     }
@@ -108,7 +109,7 @@ impl Does {
 /// The robot's body.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Robot {
-    /// Its mass, in grams.
+    /// Mass, in grams.
     pub mass_g: u64,
     /// The fastest it can go.
     pub speed_max: MillimetresPerSecond,
@@ -139,7 +140,7 @@ pub const fn harmless_speed(mass_g: u64, energy: Millijoules) -> MillimetresPerS
 /// A kind of hardware, switched on and off in units.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hardware {
-    /// Its name.
+    /// Name of the kind of hardware.
     pub name: String,
     /// How many units the robot has.
     pub units: u8,
@@ -178,21 +179,21 @@ impl MotionPower {
     }
 }
 
-/// What a task takes that does not travel.
+/// Time and power of a task that does not travel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Standing {
-    /// Its duration.
+    /// Duration of the task.
     pub duration: Millis,
-    /// Its power, without that of the hardware it needs.
+    /// Power of the task, without that of the hardware it needs.
     pub power: Milliwatts,
 }
 
 /// A task implementation option (TIO).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tio {
-    /// Its id.
+    /// Id of the task.
     pub id: String,
-    /// Where the id stands in the file.
+    /// Position of the id in the file, in bytes.
     pub span: Range<usize>,
     /// The task that it implements.
     pub task: Task,
@@ -200,11 +201,11 @@ pub struct Tio {
     pub needs: Equipment,
     /// The fastest it allows.
     pub speed_max: Option<MillimetresPerSecond>,
-    /// Its quality for each 100 mm of travel.
+    /// Quality for each 100 mm of travel.
     pub quality_per_dm: u32,
-    /// Its quality in an activity that does not travel.
+    /// Quality in an activity that does not travel.
     pub quality: u32,
-    /// What it takes standing; none for tasks that travel or run along.
+    /// Time and power of the task standing; `None` for tasks that travel or run along.
     pub standing: Option<Standing>,
     /// The modules that it runs: one for each moving option of a supervised mission, none for other
     /// options.
@@ -214,17 +215,17 @@ pub struct Tio {
 /// An objective: tasks that run at the same time on a part of the path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Objective {
-    /// Its id.
+    /// Id of the objective.
     pub id: String,
-    /// Where the id stands in the file.
+    /// Position of the id in the file, in bytes.
     pub span: Range<usize>,
-    /// Where it starts.
+    /// Start on the path.
     pub x_start: Millimetres,
-    /// Where it ends; the same place when it does not travel.
+    /// End on the path; the same place when the objective does not travel.
     pub x_end: Millimetres,
-    /// Its tasks: exactly one that leads, [`Task::Move`] if and only if it travels.
+    /// The tasks: exactly one that leads, [`Task::Move`] if and only if the objective travels.
     pub tasks: Vec<Task>,
-    /// What its supervisor takes it for; there in a supervised mission only.
+    /// The kind of the objective for its supervisor; given in a supervised mission only.
     pub does: Option<Spanned<Does>>,
 }
 
@@ -247,13 +248,13 @@ pub struct HardwareRequirement {
 /// A part of the path with constraints on the activities that travel there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Zone {
-    /// Its id.
+    /// Id of the zone.
     pub id: String,
-    /// Where the id stands in the file.
+    /// Position of the id in the file, in bytes.
     pub span: Range<usize>,
-    /// Where it starts.
+    /// Start on the path.
     pub x_start: Millimetres,
-    /// Where it ends, behind its start.
+    /// End on the path, behind the start.
     pub x_end: Millimetres,
     /// The fastest it allows.
     pub speed_max: Option<MillimetresPerSecond>,
@@ -263,7 +264,7 @@ pub struct Zone {
     pub require_tio: Option<Spanned<usize>>,
 }
 
-/// What plans are chosen for.
+/// The criterion by which plans are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlannedFor {
     /// The rule of the paper: the highest plan that it finds within the limits.
@@ -295,7 +296,7 @@ pub struct Definition {
     pub limits: [u64; 2],
     /// The axes in their order of treatment.
     pub order: [usize; 2],
-    /// What its plans are chosen for; none if the file leaves that to who plans.
+    /// The criterion by which plans are chosen; `None` if the file leaves that to the planner.
     pub planned_for: Option<PlannedFor>,
     /// The robot's body.
     pub robot: Robot,
@@ -309,7 +310,8 @@ pub struct Definition {
     pub objectives: Vec<Objective>,
     /// The zones; they may overlap.
     pub zones: Vec<Zone>,
-    /// Who decides while it runs; none for a plain mission, which only plans again.
+    /// The supervisors that decide while the mission runs; `None` for a plain mission, which only
+    /// plans again.
     pub supervision: Option<Supervision>,
     /// Whether its supervisors use again what [returns](crate::cotama::recovering).
     pub recovery: bool,

@@ -3,9 +3,9 @@
 /// A mission file that comes with the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Embedded {
-    /// Its name.
+    /// Name of the mission.
     pub name: &'static str,
-    /// What it is, in one line.
+    /// Description in one line.
     pub description: &'static str,
     /// The text of the file.
     pub text: &'static str,

@@ -44,12 +44,19 @@ pub const ROUNDINGS: [(&str, &str); 2] = [
     ("energy", "mJ = round_half_up(power_mW * duration_ms / 1000)"),
 ];
 
-/// What plans can be chosen for.
+/// Names of the criteria by which plans can be chosen.
 pub const OBJECTIVES: [(&str, PlannedFor); 3] = [
     ("paper", PlannedFor::Paper),
     ("quality", PlannedFor::Quality),
     ("min-energy", PlannedFor::MinEnergy),
 ];
+
+/// Names of the allocators.
+pub const ALLOCATORS: [&str; 2] = ["panorama", "exact"];
+/// The steps of a search.
+pub const SEARCHES: RangeInclusive<i64> = 1..=i64::MAX;
+/// Range of counts and measures of a run.
+pub const COUNTS: RangeInclusive<i64> = 0..=i64::MAX;
 
 /// The kinds of events in every mission.
 pub const EVENTS: [&str; 4] = ["obstacle", "fault", "repair", "odometry"];

@@ -50,11 +50,9 @@ use std::ops::Deref;
 /// The format that a mission file must name.
 pub const FORMAT: &str = "panorama-mission/1";
 
-/// A mission: a [`Definition`] that was checked, and the [`Scenario`] it unfolds to.
+/// A mission: its file, and the [`Unfolded`] definition that the file says.
 ///
-/// *Invariant:* the scenario is that of the definition, and none of its activities is without
-/// alternatives; the supervisor of a supervised mission is made from its objectives, and checked.
-/// The definition is therefore read only; its fields are those of the mission.
+/// *Invariant:* the definition is that of the text, so that a mission is written by its text.
 ///
 /// ```
 /// use cotama_models::missions::{Mission, embedded};
@@ -69,12 +67,32 @@ pub const FORMAT: &str = "panorama-mission/1";
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mission {
+    source: String,
+    text: String,
+    unfolded: Unfolded,
+}
+
+/// A [`Definition`] that was checked as a whole, and the [`Scenario`] it unfolds to.
+///
+/// *Invariant:* the scenario is that of the definition, and none of its activities is without
+/// alternatives; the supervisor of a supervised mission is made from its objectives, and checked.
+/// The definition is therefore read only; its fields are those of the mission.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unfolded {
     definition: Definition,
     scenario: Scenario,
     supervisor: Option<OwnedNet>,
 }
 
 impl Deref for Mission {
+    type Target = Unfolded;
+
+    fn deref(&self) -> &Unfolded {
+        &self.unfolded
+    }
+}
+
+impl Deref for Unfolded {
     type Target = Definition;
 
     fn deref(&self) -> &Definition {
@@ -93,14 +111,48 @@ impl Mission {
             reader::document(text, &sink, FORMAT, reader::definition).filter(|_| sink.is_empty());
         let mut errors = sink.into_diagnostics();
         if let Some(definition) = definition {
-            match Self::checked(definition) {
-                Ok(mission) => return Ok(mission),
+            match Unfolded::checked(definition) {
+                Ok(unfolded) => {
+                    let (source, text) = (source_name.into(), text.into());
+                    return Ok(Self { source, text, unfolded });
+                }
                 Err(found) => errors.extend(found),
             }
         }
         Err(MissionErrors::new(source_name, text, errors))
     }
 
+    /// Returns the name of the file that the mission was read from, as in messages.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// Returns the text of the file.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Returns the mission with other limits on duration (ms) and energy (mJ), where given, in its
+    /// text as well.
+    ///
+    /// # Errors
+    /// All errors of that text: a limit that no file may have.
+    ///
+    /// ```
+    /// use cotama_models::missions::{Mission, embedded};
+    /// let patrol = embedded::mission("patrol").unwrap();
+    /// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+    /// let poor = mission.with_limits([None, Some(4_320_000)]).unwrap();
+    /// assert_eq!(poor.limits, [600_000, 4_320_000]);
+    /// assert!(poor.text().contains("energy_mj = 4320000"));
+    /// ```
+    pub fn with_limits(&self, limits: [Option<u64>; 2]) -> Result<Self, MissionErrors> {
+        let text = reader::with_limits(&self.text, limits);
+        Self::parse(&self.source, &text)
+    }
+}
+
+impl Unfolded {
     /// The whole of a definition, or what is wrong with it as a whole.
     fn checked(definition: Definition) -> Result<Self, Vec<Diagnostic>> {
         let scenario = Scenario::generate(&definition)?;

@@ -26,6 +26,8 @@ pub mod mission_net;
 #[cfg(feature = "std")]
 pub(crate) mod reader;
 #[cfg(feature = "std")]
+mod remaining;
+#[cfg(feature = "std")]
 mod rust_source;
 #[cfg(feature = "std")]
 mod scenario;
@@ -38,9 +40,11 @@ pub use definition::{
     Robot, Standing, Supervision, Task, Tio, Zone, harmless_speed,
 };
 #[cfg(feature = "std")]
-pub use diagnostic::{Diagnostic, MAX_DIAGNOSTICS, MissionErrors, Position, Spanned};
+pub use diagnostic::{Diagnostic, MAX_DIAGNOSTICS, MissionErrors, Position, Spanned, told_with};
 #[cfg(feature = "std")]
-pub use mission::{FORMAT, Mission};
+pub use mission::{FORMAT, Mission, Unfolded};
+#[cfg(feature = "std")]
+pub use remaining::Remaining;
 #[cfg(feature = "std")]
 pub use scenario::{
     Constraint, Dropped, MAX_ACTIVITIES, MAX_ALTERNATIVES, MAX_ALTERNATIVES_TOTAL, PlannedActivity,

@@ -2,6 +2,7 @@
 
 use super::scenario::Scenario;
 use super::tables::Alternative;
+use cotama_core::text::visible;
 use std::fmt;
 
 impl Scenario {
@@ -144,7 +145,7 @@ fn hex(bits: u64) -> String {
     format!("0x{}", groups.join("_"))
 }
 
-/// A name that cannot end its comment.
+/// A name that cannot end its comment, and has nothing that the compiler refuses there.
 fn one_line(name: &str) -> String {
-    name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+    visible(name).to_string()
 }

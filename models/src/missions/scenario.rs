@@ -50,21 +50,21 @@ pub struct Dropped {
 /// An activity and its alternatives.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannedActivity {
-    /// Its id: `A1` and so on, in sequence.
+    /// Id of the activity: `A1` and so on, in sequence.
     pub id: String,
     /// The index of the objective that it is a part of.
     pub objective: usize,
-    /// Where it starts.
+    /// Start on the path.
     pub x_start: Millimetres,
-    /// Where it ends; the same place when it does not travel.
+    /// End on the path; the same place when the activity does not travel.
     pub x_end: Millimetres,
     /// The lowest limit of robot, harmless impact and zones; zero when it does not travel.
     pub speed_max: MillimetresPerSecond,
-    /// Its alternatives: at least one.
+    /// The alternatives: at least one.
     pub alternatives: Vec<Alternative>,
     /// For each alternative the ids of its options, in the order of the objective's tasks: `M5 L2`.
     pub labels: Vec<String>,
-    /// What the constraints excluded.
+    /// The alternatives that the constraints excluded.
     pub dropped: Vec<Dropped>,
 }
 
@@ -80,7 +80,7 @@ impl PlannedActivity {
     }
 }
 
-/// What an allocator works on: activities in sequence, with their alternatives, and limits.
+/// The input of an allocator: activities in sequence, with their alternatives, and limits.
 ///
 /// ```
 /// use cotama_models::missions::{Mission, embedded};
@@ -360,7 +360,7 @@ fn excluding(
     by
 }
 
-/// What a constraint demands, for people.
+/// Returns the demand of a constraint, in words.
 fn demand(definition: &Definition, zone: usize, constraint: Constraint) -> String {
     let Some(zone) = definition.zones.get(zone) else { return String::new() };
     match (constraint, &zone.require_hardware, &zone.require_tio) {

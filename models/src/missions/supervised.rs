@@ -1,7 +1,7 @@
-//! What a supervised mission has to be as a whole, so that its supervisor cannot be asked for what
-//! makes no sense, and so that no objective blocks.
+//! Checks of a supervised mission as a whole, so that its supervisor cannot be asked for the
+//! impossible, and so that no objective blocks.
 
-use super::definition::{AXES, Definition, Does, Objective};
+use super::definition::{Definition, Does, Objective};
 use super::diagnostic::Diagnostic;
 use super::mission_net::{self, Fault, MAX_OBJECTIVES, RESERVED, global_supervisor};
 use super::scenario::{PlannedActivity, Scenario};
@@ -33,7 +33,6 @@ pub(super) fn supervisor(
     let mut errors = names(objectives);
     errors.extend(object(objectives));
     errors.extend(last(objectives));
-    errors.extend(too_long(definition, scenario));
     errors.extend(could_block(definition, scenario));
     if !errors.is_empty() {
         return Err(errors);
@@ -125,34 +124,6 @@ fn last(objectives: &[Objective]) -> Option<Diagnostic> {
 
 fn of(scenario: &Scenario, objective: usize) -> impl Iterator<Item = &PlannedActivity> {
     scenario.activities.iter().filter(move |activity| activity.objective == objective)
-}
-
-/// An objective that passes a limit alone, however it is done.
-fn too_long(definition: &Definition, scenario: &Scenario) -> Vec<Diagnostic> {
-    let mut errors = Vec::new();
-    for (index, objective) in definition.objectives.iter().enumerate() {
-        for (axis, unit) in ["ms", "mJ"].into_iter().enumerate() {
-            let least = |activity: &PlannedActivity| {
-                let table = activity.table();
-                let costs = table.alternatives.iter().filter_map(|it| it.cost(table.whole(it)));
-                costs.map(|cost| u64::from(cost[axis])).min().unwrap_or(0)
-            };
-            let (least, limit) =
-                (of(scenario, index).map(least).sum::<u64>(), definition.limits[axis]);
-            if least > limit {
-                let (id, name) = (&objective.id, AXES[axis]);
-                let message = format!(
-                    "`{id}` alone passes the limit of {name}: at least {least} {unit} of {limit} \
-                     {unit}"
-                );
-                let help = format!("raise the limit of {name}, or let `{id}` do less");
-                errors.push(
-                    Diagnostic::new(objective.span.clone(), message, "too long alone").help(help),
-                );
-            }
-        }
-    }
-    errors
 }
 
 /// Whether no way to drive does without this module: when it is lost, stopping is all that is left.

@@ -89,7 +89,7 @@ cotama_core::net! {
         transitions {
             call   on Call:      Closed => Opening emit DriveOpen;
             opened on EndOpen:   Opening => Open emit Stop;
-            /// Who calls at an open door gets the full time.
+            /// A call at an open door gives it the full time again.
             hold   on Call:      Open => Open;
             close  [!obstacle]:  Open => Closing emit DriveClosed within 5_000..=5_000 ms;
             closed on EndClosed: Closing => Closed emit Stop;

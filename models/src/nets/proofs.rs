@@ -25,7 +25,7 @@ pub fn the_net_is_the_watchdog_of_the_executive() {
         let acknowledges = job == 3 && kani::any();
         for (at, what) in [(0, 0), (ends, 1), (160, 2)] {
             let now = PERIOD * job + at;
-            // What is due at this instant goes first, in both.
+            // Events due at this instant go first, in both.
             while let Some(it) = executive.step(ms(now)) {
                 if matches!(it.what, What::Released | What::Refused) {
                     let _ = net.offer(Millis(now), &Event::Release);

@@ -10,15 +10,15 @@ use cotama_core::net::{Known, Net};
 /// A shipped net, or a family of them.
 #[derive(Clone, Copy, Debug)]
 pub struct ModelEntry {
-    /// What [`find`] knows it by.
+    /// Name by which [`find`] knows the model.
     pub name: &'static str,
-    /// What it is, in a sentence.
+    /// Description in a sentence.
     pub description: &'static str,
     /// The net.
     pub model: Model,
 }
 
-/// What a name stands for.
+/// The model that a name stands for.
 ///
 /// ```
 /// use cotama_models::nets::{Model, all};
@@ -100,15 +100,15 @@ pub enum FindError {
         /// A name that may have been meant.
         nearest: Option<&'static str>,
     },
-    /// It is a family, and wants a number.
+    /// The model is a family, and wants a number.
     NumberMissing(&'static str),
-    /// It is one net, and takes no number.
+    /// The model is one net, and takes no number.
     NoFamily(&'static str),
-    /// What stands after the colon is no number of 32 bits.
+    /// The text after the colon is no number of 32 bits.
     NotANumber {
         /// The family.
         family: &'static str,
-        /// What stands there.
+        /// The text found.
         found: String,
     },
     /// The family has no net for this number.

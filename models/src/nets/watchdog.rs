@@ -1,11 +1,10 @@
 //! The watchdog of a real-time scheduler, one for each module that it runs.
 //!
-//! The control architecture of Durand, Godary-Dejean, Lapierre, Passama, Crestani ("Using adaptive
-//! control architecture to enhance mobile robot reliability", TAROS 2010, Sections IV.B.3 and
-//! VI.A.1) watches every periodic module. A job that misses its deadline gets a little extra time,
-//! so a transient overrun does no harm; several misses in a row are a fault that is reported to the
-//! supervisor, which adapts and acknowledges it. The names `w1` to `w8` are those of its
-//! transitions in our reconstruction.
+//! The control architecture COTAMA (Durand et al., TAROS 2010, Sections IV.B.3 and VI.A.1) watches
+//! every periodic module. A job that misses its deadline gets a little extra time, so a transient
+//! overrun does no harm; several misses in a row are a fault that is reported to the supervisor,
+//! which adapts and acknowledges it. The names `w1` to `w8` are those of its transitions in our
+//! reconstruction.
 //!
 //! | number | value | |
 //! | --- | --- | --- |

@@ -1,4 +1,4 @@
-//! What a robot bids, and what it pledges.
+//! Bids and pledges of a robot.
 
 use super::capability::{Capability, Robot};
 use super::ratio::Ratio;
@@ -13,15 +13,15 @@ const COMMON: u128 = 144_403_552_893_600;
 /// An action of a plan, as one robot would carry it out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Step {
-    /// What it costs.
+    /// Cost of the action.
     pub cost: u32,
-    /// That it does not fail.
+    /// Probability that the action does not fail.
     pub success: Probability,
 }
 
-/// What it costs on average to repeat what is lost when the last of these actions fails (3.4.5.2):
-/// the failure sends the robot back to any action from the first to this, all equally likely. None
-/// for more than [`MAX_STEPS`] actions.
+/// Returns the mean cost to repeat the actions lost when the last of these fails (3.4.5.2): the
+/// failure sends the robot back to any action from the first to this, all equally likely. None for
+/// more than [`MAX_STEPS`] actions.
 ///
 /// ```
 /// use cotama_models::team::{Ratio, failure_cost};
@@ -36,9 +36,9 @@ pub fn failure_cost(costs: impl IntoIterator<Item = u32>) -> Option<Ratio> {
     if count > MAX_STEPS as u128 { None } else { Ratio::new(sum, count.max(1)) }
 }
 
-/// What a plan costs if failures are counted in (3.13), exactly: each action, and what its failure
-/// costs on average times the probability of it. None for more than [`MAX_STEPS`] actions. Costs
-/// must be such that they add up.
+/// Returns the exact cost of a plan with failures counted in (3.13): each action, and the mean cost
+/// of its failure times its probability. None for more than [`MAX_STEPS`] actions. Costs must be
+/// such that they add up.
 ///
 /// ```
 /// use cotama_models::team::{Probability, Ratio, Step, failure_aware_cost};
@@ -64,20 +64,20 @@ pub fn failure_aware_cost(steps: &[Step]) -> Option<Ratio> {
     Ratio::new(plain.checked_mul(parts)?.checked_add(risk)?, parts)
 }
 
-/// What a robot offers for a role.
+/// The bid of a robot for a role.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bid {
     /// The number of the action plan.
     pub plan: usize,
-    /// What it costs, failures counted in.
+    /// Cost, failures counted in.
     pub cost: Ratio,
-    /// That no action fails.
+    /// Probability that no action fails.
     pub success: Probability,
 }
 
 impl Bid {
-    /// What a robot bids for an action plan: the number of the plan is 0. None where it is not
-    /// capable, or where the plan has more than [`MAX_STEPS`] actions.
+    /// Returns the bid of a robot for an action plan: the number of the plan is 0. None where it is
+    /// not capable, or where the plan has more than [`MAX_STEPS`] actions.
     ///
     /// `cost` is what an action costs the robot, by its place in the plan; `surcharge` what it
     /// costs more with a capability.
@@ -125,7 +125,7 @@ impl Bid {
     }
 }
 
-/// What the winner of a task pledges not to exceed.
+/// The cost that the winner of a task pledges not to exceed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Pledge {
     /// The most that the task may come to cost.

@@ -1,4 +1,4 @@
-//! What robots can do.
+//! Capabilities of robots.
 
 use super::reliability::{Probability, Reliability};
 
@@ -16,7 +16,7 @@ impl Capability {
         if number < Self::COUNT { Some(Self(number)) } else { None }
     }
 
-    /// Its number.
+    /// Returns the number of the capability.
     pub const fn number(self) -> u8 {
         self.0
     }
@@ -54,7 +54,7 @@ impl CapabilitySet {
         Self(self.0 | 1_u32.wrapping_shl(capability.0 as u32))
     }
 
-    /// Those of both sets.
+    /// Returns the intersection.
     #[must_use]
     pub const fn and(self, other: Self) -> Self {
         Self(self.0 | other.0)
@@ -66,7 +66,7 @@ impl CapabilitySet {
         Self(self.0 & !other.0)
     }
 
-    /// Those that only one of the two sets has.
+    /// Returns the symmetric difference: the members of exactly one of the two sets.
     #[must_use]
     pub const fn difference(self, other: Self) -> Self {
         Self(self.0 ^ other.0)
@@ -82,7 +82,17 @@ impl CapabilitySet {
         others.without(self).0 == 0
     }
 
-    /// How many.
+    /// Whether it has one of these.
+    pub const fn has_any(self, others: Self) -> bool {
+        self.0 & others.0 != 0
+    }
+
+    /// The members, by their numbers.
+    pub fn iter(self) -> impl Iterator<Item = Capability> {
+        (0..Capability::COUNT).filter_map(Capability::new).filter(move |it| self.has(*it))
+    }
+
+    /// Returns the number of members.
     pub const fn len(self) -> u32 {
         self.0.count_ones()
     }
@@ -107,7 +117,7 @@ impl CapabilitySet {
 /// A capability that a robot has, and how reliable it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Skill {
-    /// What the robot can do.
+    /// The capability.
     pub capability: Capability,
     /// How reliably.
     pub reliability: Reliability,
@@ -124,14 +134,14 @@ impl Skill {
 /// A robot. Where skills name a capability twice, the first one counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Robot<'a> {
-    /// Its name.
+    /// Name of the robot.
     pub name: &'a str,
-    /// What it can do (3.4).
+    /// The skills of the robot (3.4).
     pub skills: &'a [Skill],
 }
 
 impl Robot<'_> {
-    /// What it can do: capabilities of a value above 0 (def. 3.6).
+    /// Returns the capabilities of the robot: those of a value above 0 (def. 3.6).
     pub fn capabilities(&self) -> CapabilitySet {
         let there = |it: &Capability| self.reliability(*it).is_some();
         let all = self.skills.iter().map(|it| it.capability).filter(there);

@@ -29,9 +29,9 @@ pub enum Constraint<'a> {
 /// How a robot meets a constraint, and how likely that succeeds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Used {
-    /// What the capabilities that it uses cost beside the action.
+    /// Cost of the capabilities used, beside that of the action.
     pub surcharge: u64,
-    /// That none of them fails (3.11, 3.12).
+    /// Probability that none of them fails (3.11, 3.12).
     pub success: Probability,
 }
 
@@ -139,14 +139,14 @@ impl<const N: usize> Alternatives<N> {
         self.bits().iter().map(|it| CapabilitySet::from_bits(*it as u32))
     }
 
-    /// What meets one or the other.
+    /// Returns the disjunction: the sets of both constraints.
     pub(super) fn either(&self, other: &Self) -> Option<Self> {
         let mut all = *self;
         other.iter().try_for_each(|set| all.add(set))?;
         Some(all)
     }
 
-    /// What meets both.
+    /// Returns the conjunction: each union of two sets, one of either constraint.
     pub(super) fn both(&self, other: &Self) -> Option<Self> {
         let mut all = Self::NONE;
         for one in self.iter() {

@@ -1,4 +1,4 @@
-//! What an error means for the team.
+//! The classes of errors by their consequence for the team.
 
 use super::bid::Pledge;
 
@@ -6,7 +6,7 @@ use super::bid::Pledge;
 /// and gives no number.
 pub const MOST_REPEATS: u32 = 3;
 
-/// What an error means for the team (3.14).
+/// The consequence of an error for the team (3.14).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ErrorClass {
     /// The robot goes on: it repeats the action, or goes back in its plan.
@@ -18,6 +18,9 @@ pub enum ErrorClass {
 }
 
 impl ErrorClass {
+    /// All classes.
+    pub const ALL: [Self; 3] = [Self::Recoverable, Self::SemiRecoverable, Self::NonRecoverable];
+
     /// In a word.
     pub const fn name(self) -> &'static str {
         match self {

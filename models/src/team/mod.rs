@@ -4,14 +4,15 @@
 //!
 //! [`Robot`]s have [`Capability`]s, each with a [`Reliability`]. A [`Constraint`] says which
 //! capabilities an [`Action`] needs: all of some, any of some, nested; there is no "not", so more
-//! capabilities never make a robot less capable. An [`ActionPlan`] is a sequence of actions, a
-//! [`Role`] has alternative action plans, a [`TaskPlan`] has a role for each robot, and a [`Task`]
-//! has alternative task plans and a utility.
+//! capabilities never make a robot less capable. An [`ActionPlan`] is a sequence of actions, and a
+//! [`Role`] has alternative action plans. A whole team with its tasks, their plans and utilities is
+//! a `scenario` (feature `std`), of which the rest is made.
 //!
 //! What follows from these: [`mutual_heterogeneity`] and [`team_heterogeneity`], whether a
 //! coalition [is capable](capable), the [`failure_aware_cost`] that a robot bids, the [`Pledge`] of
 //! the winner, and the [`ErrorClass`] of what goes wrong. [`service`] is the thesis's drink
-//! service; `protocol` (feature `std`) is how robots agree on who does what, as nets.
+//! service; `protocol` (feature `std`) is how robots agree on who does what, as nets. [`thesis`]
+//! has the thesis's own methods, with which answers are compared.
 //!
 //! No floating point, no heap: probabilities are counted in parts per 10⁹ and rounded down, costs
 //! are integers and rounded up, so that no robot promises more than it can hold.
@@ -30,8 +31,11 @@ pub mod protocol;
 mod pruning;
 mod ratio;
 mod reliability;
+#[cfg(feature = "std")]
+pub mod scenario;
 pub mod service;
 mod task;
+pub mod thesis;
 
 pub use bid::{Bid, MAX_STEPS, Pledge, Step, failure_aware_cost, failure_cost};
 pub use capability::{Capability, CapabilitySet, Robot, Skill};
@@ -41,4 +45,4 @@ pub use heterogeneity::{mutual_heterogeneity, team_heterogeneity};
 pub use pruning::{Capable, MAX_PRUNED, capable};
 pub use ratio::Ratio;
 pub use reliability::{Probability, Reliability, by_reliability};
-pub use task::{Action, ActionPlan, Role, Task, TaskPlan};
+pub use task::{Action, ActionPlan, Role};

@@ -1,14 +1,15 @@
-//! Whether a coalition can carry out a plan at all: before any bid is asked for (3.4.5).
+//! Whether a coalition can carry out a plan at all: before any bid is asked for (3.4.2).
 
 use super::capability::{CapabilitySet, Robot};
 use super::constraint::{Alternatives, Constraint};
-use super::task::TaskPlan;
-use cotama_core::team::{Cost, Fixed, thesis};
+use super::task::Role;
+use super::thesis;
+use cotama_core::team::{Cost, Fixed};
 
 /// The most roles, robots, and smallest sets of capabilities of one role.
 pub const MAX_PRUNED: usize = 16;
 
-/// What three ever sharper conditions say of a coalition.
+/// Results of three ever sharper conditions on a coalition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capable {
     /// All robots together could fill each role (cap1, def. 3.12).
@@ -19,19 +20,19 @@ pub struct Capable {
     pub matching: bool,
 }
 
-/// Whether these robots can carry out a plan. None where roles, robots or the smallest sets of
-/// capabilities that fill a role are more than [`MAX_PRUNED`].
+/// Whether these robots can fill the roles of a plan. None where roles, robots or the smallest sets
+/// of capabilities that fill a role are more than [`MAX_PRUNED`].
 ///
 /// ```
-/// use cotama_models::team::{capable, service::{EDDIE, JIMMY, POPPY, SERVE}};
-/// let [_fetch, _bring, both] = SERVE.plans else { unreachable!() };
+/// use cotama_models::team::{capable, service::{BRING, EDDIE, FETCH, JIMMY, POPPY}};
+/// let both = &[FETCH, BRING];
 /// assert!(capable(both, &[EDDIE, POPPY]).unwrap().matching);
 /// let mute = capable(both, &[JIMMY, POPPY]).unwrap();
 /// assert!(!mute.union); // nobody can speak
 /// ```
-pub fn capable(plan: &TaskPlan<'_>, robots: &[Robot<'_>]) -> Option<Capable> {
+pub fn capable(plan: &[Role<'_>], robots: &[Robot<'_>]) -> Option<Capable> {
     let mut roles = [Alternatives::<MAX_PRUNED>::NONE; MAX_PRUNED];
-    for (slot, role) in roles.iter_mut().zip(plan.roles) {
+    for (slot, role) in roles.iter_mut().zip(plan) {
         // Any of the action plans, all of its actions (3.6).
         for way in role.plans {
             let mut all = Constraint::NOTHING.alternatives()?;
@@ -47,7 +48,7 @@ pub fn capable(plan: &TaskPlan<'_>, robots: &[Robot<'_>]) -> Option<Capable> {
     let (mut needed, mut entries) =
         ([&[][..]; MAX_PRUNED], [None::<Cost>; MAX_PRUNED * MAX_PRUNED]);
     needed.iter_mut().zip(&roles).for_each(|(slot, role)| *slot = role.bits());
-    let (needed, sets) = (needed.get(..plan.roles.len())?, sets.get(..robots.len())?);
+    let (needed, sets) = (needed.get(..plan.len())?, sets.get(..robots.len())?);
     let mut fixed = Fixed::<i32, MAX_PRUNED, MAX_PRUNED>::new();
     Some(Capable {
         union: thesis::has_union(needed, sets),

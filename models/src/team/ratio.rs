@@ -19,7 +19,7 @@ pub struct Ratio {
 }
 
 impl Ratio {
-    /// Nothing.
+    /// The ratio 0.
     pub const ZERO: Self = Self { numerator: 0, denominator: 1 };
 
     /// A fraction; none with the denominator 0.
@@ -40,7 +40,7 @@ impl Ratio {
         }
     }
 
-    /// What is divided.
+    /// Returns the numerator.
     pub const fn numerator(self) -> u128 {
         self.numerator
     }
@@ -85,7 +85,7 @@ impl Ord for Ratio {
                 (Ordering::Equal, 0, _) => Ordering::Less,
                 (Ordering::Equal, _, 0) => Ordering::Greater,
                 (Ordering::Equal, _, _) => {
-                    // What remains is below 1: the order of the inverses is the other way round.
+                    // The remainder is below 1: the order of the inverses is the other way round.
                     left = Self { numerator: left.denominator, denominator: rest };
                     right = Self { numerator: right.denominator, denominator: other_rest };
                     swapped = !swapped;

@@ -34,13 +34,13 @@ impl Probability {
         self.0
     }
 
-    /// That both happen (3.11), rounded down.
+    /// Returns the probability that both happen (3.11), rounded down.
     #[must_use]
     pub const fn and(self, other: Self) -> Self {
         Self(((self.0 as u64).wrapping_mul(other.0 as u64) / Self::PARTS as u64) as u32)
     }
 
-    /// That it does not happen, in parts per 10⁹.
+    /// Returns the probability of the complement, in parts per 10⁹.
     pub const fn failing(self) -> u32 {
         Self::PARTS.saturating_sub(self.0)
     }

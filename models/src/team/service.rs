@@ -2,8 +2,7 @@
 
 use super::capability::{Capability, Robot, Skill};
 use super::constraint::Constraint::{self, All, Any, Has};
-use super::task::{Action, ActionPlan, Role, Task, TaskPlan};
-use cotama_core::team::Combine;
+use super::task::{Action, ActionPlan, Role};
 
 const fn capability(number: u8) -> Capability {
     Capability::new(number).expect("it is a small number")
@@ -58,39 +57,15 @@ const HAND_OVER: Action<'static> = Action { name: "hand the cup over", needs: GR
 const TALK: Action<'static> = Action { name: "talk to the person", needs: Has(DIALOGUE) };
 
 /// One goes to a person and takes the order.
-const ORDER_ROLE: Role<'static> =
+pub const ORDER: Role<'static> =
     Role { name: "order", plans: &[ActionPlan { name: "order", actions: &[TO_PERSON, TALK] }] };
 /// One brings the cup to a person, or to who talks to the person.
-const FETCH_ROLE: Role<'static> = Role {
+pub const FETCH: Role<'static> = Role {
     name: "fetch",
     plans: &[ActionPlan { name: "fetch", actions: &[TO_CUP, TAKE, TO_PERSON, HAND_OVER] }],
 };
 /// The same, and talks to the person.
-const BRING_ROLE: Role<'static> = Role {
+pub const BRING: Role<'static> = Role {
     name: "bring",
     plans: &[ActionPlan { name: "bring", actions: &[TO_CUP, TAKE, TO_PERSON, HAND_OVER, TALK] }],
-};
-
-/// The utility of a service without words; one with words yields twice that (3.6.1.2).
-pub const PLAIN_UTILITY: u32 = 300;
-
-/// To take an order.
-pub const ORDER: Task<'static> = Task {
-    name: "order",
-    utility: 2 * PLAIN_UTILITY,
-    combine: Combine::Mean,
-    plans: &[TaskPlan { name: "order", roles: &[ORDER_ROLE], extra: 0 }],
-};
-
-/// To serve a drink: fetch it without words, bring it, or one fetches it for another who brings it.
-/// The utility is that of the plan: the last one yields as much as the second (our reading).
-pub const SERVE: Task<'static> = Task {
-    name: "serve",
-    utility: 2 * PLAIN_UTILITY,
-    combine: Combine::Mean,
-    plans: &[
-        TaskPlan { name: "fetch", roles: &[FETCH_ROLE], extra: PLAIN_UTILITY },
-        TaskPlan { name: "bring", roles: &[BRING_ROLE], extra: 0 },
-        TaskPlan { name: "fetch-and-bring", roles: &[FETCH_ROLE, BRING_ROLE], extra: 0 },
-    ],
 };

@@ -83,7 +83,7 @@ fn a_sound_robot_has_every_module_and_every_configuration() {
     assert_eq!(MODULES.len(), 20);
 }
 
-/// What is left to run after each single loss.
+/// The configurations left to run after each single loss.
 #[test]
 fn configurations_after_one_lost_resource() {
     let after = |lost: Resource| {

@@ -47,7 +47,7 @@ fn consistent() -> impl Iterator<Item = (Report, Situation)> {
     cells().filter(|(_, situation)| situation.is_consistent())
 }
 
-/// What the net does: the signal it emits and the value of `mcl` after it.
+/// Returns the effect of the net: the signal it emits and the value of `mcl` after it.
 fn by_net(report: Report, situation: Situation) -> (Option<&'static str>, bool) {
     let net: &Net<'static> = &contextual::NET;
     let event = match report {
@@ -220,7 +220,7 @@ fn no_adapter_event_is_sent_when_no_configuration_of_the_sub_objective_is_left()
 
 /// CS5.
 #[test]
-fn nobody_is_asked_who_cannot_be_reached() {
+fn an_operator_out_of_reach_is_not_asked() {
     let mut asked = 0;
     for (report, situation) in cells() {
         if decide(report, situation) == Decision::Local {
@@ -238,7 +238,7 @@ fn nobody_is_asked_who_cannot_be_reached() {
     assert_eq!(asked, 31_104);
 }
 
-/// What a plan withdraws leads the adapter to the path following that the plan has chosen.
+/// Withdrawals of a plan lead the adapter to the path following that the plan has chosen.
 #[test]
 fn the_adapter_comes_to_every_path_following_that_can_be_planned() {
     use cotama_models::cotama::Configuration::{

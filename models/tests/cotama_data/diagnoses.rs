@@ -1,4 +1,4 @@
-//! What flags mean, and what they leave open.
+//! The meaning of flags, and the questions they leave open.
 
 use cotama_models::cotama::{
     Diagnosis, FailureMode, FailureModes, Flag, Flags, Health, Modules, Probes, Resource,
@@ -60,8 +60,8 @@ fn three_groups_cannot_be_told_apart_on_a_sound_robot() {
     assert_eq!(undetectable(Modules::ALL).to_string(), "PWR1 SW3");
 }
 
-/// What is sure to be seen by nobody, what is alike, and the fewest probes against it, after each
-/// single loss that leaves the robot running.
+/// After each single loss that leaves the robot running: the failure modes that nobody sees, those
+/// that look alike, and the fewest probes against that.
 #[test]
 fn a_loss_blinds_observers() {
     let after = |lost| {
@@ -128,10 +128,10 @@ fn the_least_probes_separate_all() {
     assert!(separate(least));
 }
 
-/// Where nothing tells a stall against an obstacle from one on a carpet edge, the rest can still be
-/// told apart.
+/// Without a probe for a stall against an obstacle or on a carpet edge, the rest can still be told
+/// apart.
 #[test]
-fn what_no_probe_separates_does_not_hide_what_some_do() {
+fn failure_modes_that_no_probe_separates_do_not_hide_separable_ones() {
     let no_sonar = without(Resource::SonarArrays);
     assert!(Probes::that_separate(FailureMode::Bmp1, FailureMode::Mot3, no_sonar).is_empty());
     assert_eq!(
@@ -143,7 +143,7 @@ fn what_no_probe_separates_does_not_hide_what_some_do() {
 
 /// The shared flags of two failure modes are flags that both explain, the fewest and the most.
 #[test]
-fn what_is_shared_leaves_it_open() {
+fn shared_flags_leave_both_failure_modes_open() {
     for status in [Modules::ALL, without(Resource::SonarArrays), without(Resource::Map)] {
         let pairs: Vec<_> = confusable_pairs(status).collect();
         for (a, b) in
@@ -166,7 +166,7 @@ fn what_is_shared_leaves_it_open() {
 }
 
 #[test]
-fn a_flag_says_in_words_what_was_seen() {
+fn a_flag_says_its_observation_in_words() {
     assert_eq!(Flag::Backward.doc(), "O-PF: backward for too long.");
 }
 
@@ -193,7 +193,7 @@ proptest! {
     /// A mode with the flags it always raises, and some it sometimes does, is always among the
     /// candidates.
     #[test]
-    fn what_happened_is_among_the_candidates(
+    fn the_failure_that_happened_is_among_the_candidates(
         at in 0..FailureMode::ALL.len(),
         bits: u64,
         lost in 0..Resource::ALL.len(),

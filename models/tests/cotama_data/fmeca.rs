@@ -55,7 +55,7 @@ fn one_rate_is_from_a_data_sheet_and_the_rest_assumed() {
     );
 }
 
-/// Where the printed class of a row is not that of the two rules, on the optimal path following.
+/// The rows whose printed class is not that of the two rules, on the optimal path following.
 #[test]
 fn rows_whose_class_the_rules_make_worse() {
     let worse: Vec<_> = FailureMode::ALL
@@ -76,8 +76,8 @@ fn rows_whose_class_the_rules_make_worse() {
     }
 }
 
-/// What the decision on a row's report is, where its class is not the printed one: on the optimal
-/// path following, but for the planner, the operator and drift, which fail while planning, in the
+/// The decisions on reports of rows, where their class is not the printed one: on the optimal path
+/// following, but for the planner, the operator and drift, which fail while planning, in the
 /// hand-over and in the degraded set.
 #[test]
 fn rows_whose_report_is_answered_otherwise_than_printed() {
@@ -159,7 +159,7 @@ fn several_candidates_change_a_setting_only_if_they_agree() {
 
 /// The worst of what it may be, and the report that all of it has.
 #[test]
-fn what_is_not_unique_is_judged_by_its_worst() {
+fn an_ambiguous_diagnosis_is_judged_by_its_worst_candidate() {
     use cotama_models::cotama::FailureMode::{Cam1, Cam2, Mot1, Mot2, Odo2, Odo4, Son1};
     use cotama_models::cotama::{Diagnosis, FailureModes, Flag, Flags, Mode, Report, Severity};
     let judged = |modes: &[_], flags: &[_]| {
@@ -174,7 +174,7 @@ fn what_is_not_unique_is_judged_by_its_worst() {
 }
 
 #[test]
-fn what_makes_or_reads_sonar_values_is_lost_as_the_sonars_are() {
+fn a_module_that_makes_or_reads_sonar_values_is_lost_as_the_sonars_are() {
     use cotama_models::cotama::{Health, Loss, Resource, Resources};
     let faulty = |it| Losses::from(Health { faulty: Modules::of(&[it]), ..Health::SOUND });
     assert!([Module::Sim, Module::Ust].into_iter().all(|it| faulty(it).has(Loss::Sonar)));

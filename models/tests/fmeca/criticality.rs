@@ -42,7 +42,7 @@ fn a_criticality_number_is_rounded_half_up() {
 }
 
 #[test]
-fn what_the_file_says_of_detection_replaces_the_table() {
+fn a_detection_rank_in_the_file_replaces_the_table() {
     let text = with(&[("latency_ms = 100\n", "latency_ms = 100\ndetection_rank = 6\n")]);
     let read = Analysis::parse("small.toml", &text).unwrap();
     assert_eq!(read.criticality(&read.modes()[0]).rpn(), 8 * 7 * 6);

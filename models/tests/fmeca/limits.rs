@@ -1,4 +1,4 @@
-//! What a large or wicked file does: the limits are reached, and say so.
+//! Large and wicked files: the limits are reached, and reported.
 
 use cotama_models::fmeca::{Analysis, MAX_GROUPED, MAX_MODES, MAX_PAIRS};
 use std::fmt::Write;

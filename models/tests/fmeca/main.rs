@@ -162,16 +162,142 @@ fn comma_separated_values_hold_all_but_the_declarations() {
         assert_eq!((one.mtbf_mh, one.latency_ms), (other.mtbf_mh, other.latency_ms));
         assert_eq!((&one.silent, one.alpha_permille), (&other.silent, other.alpha_permille));
     }
-    // Keys of TOML are columns too; lists stand between spaces or `;`; quotes, CRLF and an empty
-    // last line are as spreadsheets write them.
+    // Keys of TOML are columns too; lists stand between `;`; quotes, CRLF and an empty last line
+    // are as spreadsheets write them.
     let text = "\u{feff}ID,function,component,failure mode,cause,effect,severity,mtbf_h,flags,\
-        latency_ms\r\nA,\"to \"\"see\"\"\",\"a, b\",f,c,e,Hard,8,one two,5\r\n\
+        latency_ms\r\nA,\"to \"\"see\"\"\",\"a, b\",f,c,e,Hard,8,one;two,5\r\n\
         B,see,a,f,c,e,weak,8,one two;,5\r\n,,,,,,,,,\r\n";
     let read = Analysis::parse_csv("table.csv", text).unwrap();
     let [a, b] = read.modes() else { panic!("{read:?}") };
     assert_eq!((a.function.as_str(), a.component.as_str()), ("to \"see\"", "a, b"));
     assert_eq!(read.names(&a.flags), ["one", "two"]);
     assert_eq!(read.names(&b.flags), ["one two"]);
+}
+
+const HEAD: &str = "id,function,component,failure,cause,effect,severity,flags,latency_ms,mtbf_h";
+const ROW: &str = "A,see,lidar,stands,worn,blind,hard,scan late;,200,8000";
+
+#[test]
+fn empty_columns_cells_and_rows_of_a_spreadsheet_are_passed_over() {
+    let right = Analysis::parse_csv("t.csv", &format!("{HEAD}\n{ROW}\n")).unwrap();
+    for text in [
+        format!("{HEAD},,\n{ROW},,\n"),
+        format!("{HEAD}\n{ROW},,,\n"),
+        format!("{HEAD},,\n{ROW}\n"),
+        format!("{HEAD},,\n{ROW},,\n,,,,,,,,,,,\n,,,,,,,,,,,\n"),
+        format!("\n,,,\n{HEAD},\r\n\r\n{ROW},\r\n"),
+        format!("{HEAD}, ,\n{ROW}, ,  \n"),
+        format!(",{HEAD}\n,{ROW}\n"),
+        HEAD.replace("cause,effect", "cause,,effect") + "\n" + &ROW.replace("worn,", "worn,,"),
+    ] {
+        let read = Analysis::parse_csv("t.csv", &text);
+        assert_eq!(read.as_ref().ok(), Some(&right), "{text}: {read:?}");
+    }
+}
+
+#[test]
+fn a_table_that_is_not_one_has_one_error_for_its_cause() {
+    for (text, first) in [
+        (
+            format!("FMEA robot arm,,,,,,,,,\n{HEAD}\n{ROW}\n{ROW}\n"),
+            "t.csv:1:1: the first row holds the names of the columns, and this one does not",
+        ),
+        (
+            format!("FMEA,arm\nof,2026\n\n{HEAD}\n{ROW}\n"),
+            "t.csv:1:1: the first row holds the names of the columns, and this one does not",
+        ),
+        (format!("{HEAD},\n{ROW},note\n"), "t.csv:1:77: this column has no name"),
+        (
+            format!("{HEAD}\n{}\n", ROW.replace("worn", "worn, old")),
+            "t.csv:2:1: this row has 11 cells, but there are 10 columns",
+        ),
+        (
+            format!("{HEAD}\n{}\n", ROW.replace(",8000", "")),
+            "t.csv:2:1: this row has 9 cells, but there are 10 columns",
+        ),
+        (
+            format!("{HEAD}\n{}\n", ROW.replace("scan late;", "scan late")),
+            "t.csv:2:36: `scan late` is one name, or several",
+        ),
+    ] {
+        let errors = Analysis::parse_csv("t.csv", &text).unwrap_err();
+        let said = errors.to_string();
+        assert_eq!(said.lines().next(), Some(first), "{said}");
+        assert_eq!(errors.diagnostics().len(), 1, "{said}");
+    }
+}
+
+#[test]
+fn names_in_a_list_are_told_apart_by_a_semicolon_or_a_line_end() {
+    let flags = |cell: &str| {
+        let text = format!("{HEAD}\n{}\n", ROW.replace("scan late;", cell));
+        let read = Analysis::parse_csv("t.csv", &text).unwrap();
+        read.names(&read.modes()[0].flags).iter().map(|it| (*it).to_owned()).collect::<Vec<_>>()
+    };
+    for (cell, names) in [
+        ("scan late;", vec!["scan late"]),
+        ("scan; late", vec!["scan", "late"]),
+        ("scan;late;", vec!["scan", "late"]),
+        ("scan", vec!["scan"]),
+        ("\"scan late\nframe late\"", vec!["scan late", "frame late"]),
+        (" scan ; frame late ", vec!["scan", "frame late"]),
+    ] {
+        assert_eq!(flags(cell), names, "{cell}");
+    }
+}
+
+/// What stands between names in one table stands within a name of another one.
+#[test]
+fn a_cell_that_could_be_one_name_or_several_is_refused_with_both_spellings() {
+    let read = |cell: &str| {
+        let text = format!("{HEAD}\n{}\n", ROW.replace("scan late;", &format!("\"{cell}\"")));
+        Analysis::parse_csv("t.csv", &text)
+    };
+    let flags = |cell: &str| {
+        let read = read(cell).unwrap_or_else(|errors| panic!("{cell}: {errors}"));
+        read.names(&read.modes()[0].flags).iter().map(|it| (*it).to_owned()).collect::<Vec<_>>()
+    };
+    for (cell, one, apart) in [
+        ("scan late", "scan late", &["scan", "late"][..]),
+        ("scan, late", "scan, late", &["scan", "late"]),
+        ("scan,late", "scan,late", &["scan", "late"]),
+        ("scan late,", "scan late,", &["scan", "late"]),
+        ("scan|late", "scan|late", &["scan", "late"]),
+        ("scan + late", "scan + late", &["scan", "late"]),
+        ("scan&late&stall", "scan&late&stall", &["scan", "late", "stall"]),
+        ("scan、late", "scan、late", &["scan", "late"]),
+        (" scan \t late ", "scan late", &["scan", "late"]),
+    ] {
+        let errors = read(cell).unwrap_err();
+        assert_eq!(errors.diagnostics().len(), 1, "{errors}");
+        let several = apart.join("; ");
+        let message = format!("`{one}` is one name, or several");
+        let help = format!("write `{one};` for one name, `{several}` for several");
+        let found = &errors.diagnostics()[0];
+        assert_eq!((&*found.message, found.help.as_deref()), (&*message, Some(&*help)));
+        // Both spellings are read as they say, and so is what is written of them.
+        assert_eq!(flags(&format!("{one};")), [one]);
+        let mut sorted = apart.to_vec();
+        sorted.sort_unstable();
+        let mut found = flags(&several);
+        found.sort_unstable();
+        assert_eq!(found, sorted);
+        for cell in [format!("{one};"), several] {
+            let read = read(&cell).unwrap();
+            let again = Analysis::parse_csv("t.csv", &read.to_csv()).unwrap();
+            let names = |it: &Analysis| {
+                it.names(&it.modes()[0].flags).iter().map(|it| (*it).to_owned()).collect::<Vec<_>>()
+            };
+            let sorted = |mut it: Vec<String>| {
+                it.sort_unstable();
+                it
+            };
+            assert_eq!(sorted(names(&again)), sorted(names(&read)), "{cell}");
+        }
+    }
+    for cell in ["scan", "scan_late", "scan-late", "scan/late", "I/O", "slip>5%", "lost:2"] {
+        assert_eq!(flags(cell), [cell]);
+    }
 }
 
 #[test]

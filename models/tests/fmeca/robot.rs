@@ -16,7 +16,7 @@ fn the_printed_table_is_the_golden_one_and_is_read_again() {
     let again = Analysis::parse_csv("the delivery robot.csv", &printed).unwrap();
     assert_eq!(again.to_csv(), printed);
     assert_eq!((again.title(), again.period_h()), (robot.title(), robot.period_h()));
-    // What the table holds is the same; flags come in the order in which rows name them.
+    // The contents of the table are the same; flags come in the order in which rows name them.
     let rows = |it: &Analysis| -> Vec<_> {
         let row = |mode: &Mode| {
             let mut flags = [it.names(&mode.flags), it.names(&mode.sometimes)]
@@ -69,7 +69,7 @@ fn same(status: Modules) {
 }
 
 #[test]
-fn each_loss_leaves_what_the_typed_rows_leave() {
+fn each_loss_leaves_the_same_as_the_typed_rows() {
     same(Modules::ALL);
     for &lost in Resource::ALL {
         same(available(Modules::NONE, Resources::of(&[lost])));

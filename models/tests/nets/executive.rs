@@ -16,7 +16,7 @@ net! {
     mod second extends watchdog { constants { MISSES: 2, DEADLINE: 30, EXTRA: 10 } }
 }
 net! {
-    /// Its extra time outlasts its period, so that a release may be refused, and the first miss is
+    /// The extra time outlasts the period, so that a release may be refused, and the first miss is
     /// a fault.
     mod third extends watchdog { constants { MISSES: 1, DEADLINE: 70, EXTRA: 25 } }
 }

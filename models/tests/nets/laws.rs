@@ -26,7 +26,7 @@ pub(crate) fn roles_are_broken(net: &Net<'_>, graph: &Graph) -> bool {
     !graph.markings.iter().all(roles)
 }
 
-/// What a law is called.
+/// Returns the name of a law.
 pub(crate) fn name(law: &Law<'_>) -> &'static str {
     match law {
         Law::Invariant { .. } => "invariant",

@@ -6,7 +6,8 @@ use crate::time::{Answer, Timed};
 use cotama_core::net::Net;
 use std::fmt::Write;
 
-/// What each event does in each marking that lasts, and what happens by itself.
+/// Returns the table of each event in each marking that lasts, and of transitions that fire by
+/// themselves.
 pub(crate) fn matrix(net: &Net<'_>, graph: &Graph) -> String {
     let mut text = String::new();
     let width = net.events.iter().map(|it| it.name.len()).chain(["by itself".len()]).max().unwrap();
@@ -50,7 +51,7 @@ fn told(net: &Net<'_>, marking: &Marking, transition: usize) -> String {
     format!("{text} -> {}", words(net, &after))
 }
 
-/// What became of an event, in words.
+/// Returns the outcome of an event, in words.
 pub(crate) fn said(net: &Net<'_>, answer: Answer) -> String {
     match answer {
         Answer::Fired { transition, settled } => {

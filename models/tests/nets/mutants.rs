@@ -16,7 +16,7 @@ use cotama_models::nets::{ace, charger, crossing, door, watchdog};
 use std::collections::{BTreeMap, HashSet};
 use std::fmt::Write;
 
-/// What a mistake does when no law notices it.
+/// The effect of a mistake that no law notices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
     Elsewhere,
@@ -108,7 +108,7 @@ fn list(text: &mut String, mistakes: &Mistakes<'_>) {
     }
 }
 
-/// What is wrong with the roles of places, or the law that `net!` would refuse.
+/// Returns the defect in the roles of places, or the law that `net!` would refuse.
 fn broken(net: &Net<'_>, graph: &Graph) -> Option<&'static str> {
     if laws::roles_are_broken(net, graph) {
         return Some("complement");

@@ -6,7 +6,7 @@ use crate::matrix::{matrix, said};
 use crate::textbook::{Marking, explore_played, settled, words};
 use crate::time::{Timed, turning_points};
 use cotama_core::net::{Known, MARKINGS, Net, PlaceId};
-use cotama_core::player::{Checked, Outcome, Player, Program, Snapshot, Why};
+use cotama_core::player::{Checked, EventNames, Outcome, Player, Program, Snapshot, Why};
 use cotama_core::units::Millis;
 use cotama_models::nets::{ace, charger, crossing, door, watchdog};
 use std::collections::HashSet;
@@ -118,7 +118,7 @@ fn same<P: Program<W, C>, const W: usize, const C: usize>(
     }
 }
 
-fn answer<T: core::fmt::Debug>(outcome: Outcome<T>) -> String {
+fn answer<T: EventNames + core::fmt::Debug>(outcome: Outcome<T>) -> String {
     match outcome {
         Outcome::Fired { transition, settled } => format!("{transition:?}, then {settled}"),
         Outcome::Ignored { why: Why::OnPurpose } => "ignored".into(),
@@ -134,7 +134,7 @@ fn answer<T: core::fmt::Debug>(outcome: Outcome<T>) -> String {
 }
 
 #[test]
-fn a_door_does_what_it_declares_and_nothing_else() {
+fn a_door_does_its_declared_transitions_and_nothing_else() {
     use door::Event::*;
     let counts = play::<_, _, { clock_count(&door::NET) }>(
         door::Program,
@@ -146,7 +146,7 @@ fn a_door_does_what_it_declares_and_nothing_else() {
 }
 
 #[test]
-fn a_watchdog_does_what_it_declares_and_nothing_else() {
+fn a_watchdog_does_its_declared_transitions_and_nothing_else() {
     use watchdog::Event::*;
     let counts = play::<_, _, { clock_count(&watchdog::NET) }>(
         watchdog::Program,
@@ -158,7 +158,7 @@ fn a_watchdog_does_what_it_declares_and_nothing_else() {
 }
 
 #[test]
-fn a_charger_does_what_it_declares_and_nothing_else() {
+fn a_charger_does_its_declared_transitions_and_nothing_else() {
     use charger::Event::*;
     let counts = play::<_, _, { clock_count(&charger::NET) }>(
         charger::Program,
@@ -170,7 +170,7 @@ fn a_charger_does_what_it_declares_and_nothing_else() {
 }
 
 #[test]
-fn a_crossing_does_what_it_declares_and_nothing_else() {
+fn a_crossing_does_its_declared_transitions_and_nothing_else() {
     let counts = play::<_, _, { clock_count(&crossing::NET) }>(
         crossing::Program,
         &crossing::NET,
@@ -181,7 +181,7 @@ fn a_crossing_does_what_it_declares_and_nothing_else() {
 }
 
 #[test]
-fn a_request_does_what_it_declares_and_nothing_else() {
+fn a_request_does_its_declared_transitions_and_nothing_else() {
     use ace::request::Event::*;
     let counts = play::<_, _, 0>(
         ace::request::Program,
@@ -193,7 +193,7 @@ fn a_request_does_what_it_declares_and_nothing_else() {
 }
 
 #[test]
-fn a_selection_does_what_it_declares_and_nothing_else() {
+fn a_selection_does_its_declared_transitions_and_nothing_else() {
     use ace::selection::Event::*;
     let counts = play::<_, _, 0>(
         ace::selection::Program,
@@ -213,7 +213,7 @@ fn a_selection_does_what_it_declares_and_nothing_else() {
 }
 
 #[test]
-fn a_behaviour_does_what_it_declares_and_nothing_else() {
+fn a_behaviour_does_its_declared_transitions_and_nothing_else() {
     use ace::behaviour::Event::*;
     let counts = play::<_, _, 0>(
         ace::behaviour::Program,
@@ -225,7 +225,7 @@ fn a_behaviour_does_what_it_declares_and_nothing_else() {
 }
 
 #[test]
-fn an_accuracy_does_what_it_declares_and_nothing_else() {
+fn an_accuracy_does_its_declared_transitions_and_nothing_else() {
     use ace::accuracy::Event::*;
     let counts = play::<_, _, 0>(
         ace::accuracy::Program,

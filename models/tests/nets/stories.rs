@@ -1,4 +1,4 @@
-//! What the sources of the nets say, to the millisecond and to the cycle.
+//! Claims of the sources of the nets, to the millisecond and to the cycle.
 
 use crate::textbook::{Marking, explore, settled};
 use crate::time::{Answer, Timed};

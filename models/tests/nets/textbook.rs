@@ -31,7 +31,7 @@ pub(crate) fn enabled(transition: &Transition<'_>, marking: &Marking) -> bool {
     has(marking, transition.take) && has(marking, transition.read)
 }
 
-/// What is left when a transition has taken its tokens.
+/// Returns the marking left when a transition has taken its tokens.
 pub(crate) fn taken(transition: &Transition<'_>, marking: &Marking) -> Marking {
     let mut left = marking.clone();
     transition.take.iter().for_each(|arc| left[arc.place.0 as usize] -= arc.weight);

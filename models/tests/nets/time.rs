@@ -4,7 +4,7 @@
 use crate::textbook::{Marking, enabled, fired, first, immediate, taken};
 use cotama_core::net::{Ignored, Net, PlaceId, Transition, Within};
 
-/// What an event does: transitions are positions in the net.
+/// The outcome of an event: transitions are positions in the net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Answer {
     Fired { transition: usize, settled: usize },

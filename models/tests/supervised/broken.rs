@@ -8,7 +8,7 @@ use std::fmt::Write;
 /// A way to break a mission: its name, what the message about it says, and what it does.
 type Breaking = (&'static str, &'static str, fn(&mut File));
 
-const BREAKINGS: [Breaking; 40] = [
+const BREAKINGS: [Breaking; 38] = [
     ("nothing on board", "but no object is on board there", |file| {
         file.objectives.remove(file.first("receive"));
     }),
@@ -138,8 +138,6 @@ const BREAKINGS: [Breaking; 40] = [
     ("standing without a time", "missing key `duration_ms`", |file| {
         file.options.last_mut().unwrap().more = "power_mw = 1\n".into();
     }),
-    ("too slow alone", "alone passes the limit of duration", |file| file.limits[0] = 3000),
-    ("too much energy alone", "alone passes the limit of energy", |file| file.limits[1] = 20_000),
     ("an unknown failure", "unknown failure mode `RT9`", |file| file.events = failure(0, "RT9")),
     ("answers in the wrong order", "after a request the operator cannot answer `path`", |file| {
         file.events = operator(0, "\"path\"");

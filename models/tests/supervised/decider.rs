@@ -62,7 +62,7 @@ impl Robot {
 }
 
 #[test]
-fn what_it_is_given_are_flags_of_observers_and_no_failure() {
+fn the_decider_is_given_flags_of_observers_and_no_failure() {
     // Every field of every input: none is, or holds, a failure mode.
     let Perceived { raised, lowered, part, works } = QUIET;
     let _: (Flags, Flags, Modules, Modules) = (raised, lowered, part, works);
@@ -124,7 +124,7 @@ fn a_failure_that_has_passed_does_not_hide_another_one() {
 }
 
 #[test]
-fn two_losses_at_once_are_told_one_a_round_and_what_is_said_waits() {
+fn two_losses_at_once_are_told_one_a_round_and_words_wait() {
     let mut robot = Robot::following();
     let both = Perceived { raised: Flags::of(&[Flag::SonarFar, Flag::NoFrame]), ..QUIET };
     let (finding, first) = robot.step(both, Some(Word::PathReady));
@@ -193,7 +193,7 @@ fn an_operator_who_is_silent_for_too_long_ends_the_mission_once() {
     assert_eq!(at - asked, PATIENCE.0 + 100);
     let requests = robot.decider.requests();
     assert!(requests.halt && requests.alarm && !requests.drive);
-    // It is in `Safe`, behind waiting, four objectives, done and security.
+    // The mission is in `Safe`, behind waiting, four objectives, done and security.
     assert_eq!(robot.decider.global().0, 7);
 }
 

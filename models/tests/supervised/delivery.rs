@@ -121,7 +121,7 @@ fn answers_follow_each_other_as_in_the_local_supervisor() {
     }
 }
 
-/// What makes a net, whatever its places and transitions are called.
+/// Returns the shape of a net, whatever its places and transitions are called.
 fn shape(net: &Net<'_>) -> impl PartialEq + std::fmt::Debug {
     let transition = |it: &Transition<'_>| {
         let arcs = (it.take.to_vec(), it.read.to_vec(), it.give.to_vec());

@@ -95,7 +95,7 @@ fn every_mutant_of_generated_missions_is_found() {
 }
 
 #[test]
-fn what_is_ignored_only_under_a_guard_is_found() {
+fn an_event_ignored_only_under_a_guard_is_found() {
     let mission = embedded::mission("delivery").unwrap();
     let mission = Mission::parse(mission.name, mission.text).unwrap();
     for ignored in 0..2 {

@@ -1,4 +1,4 @@
-//! What the decisional level uses again where modules may return, and when.
+//! The modules that the decisional level uses again where they may return, and when.
 
 use cotama_core::units::Millis;
 use cotama_models::cotama::Return::{Avoidance, Mcl, Sonar};
@@ -55,7 +55,7 @@ fn returns(spans: &[Span]) -> (Vec<(u64, Modules)>, Vec<Return>) {
 /// Localisation and avoidance fall silent at once, and avoidance is sound 5 s before localisation:
 /// what took both is over when both have been sound for 10 s.
 #[test]
-fn what_took_several_modules_is_over_when_all_of_them_are_sound() {
+fn a_failure_of_several_modules_is_over_when_all_of_them_are_sound() {
     let [dvz, mcl] = [Module::Dvz, Module::Mcl].map(|it| Modules::of(&[it]));
     let both = dvz.union(mcl);
     let spans = [
@@ -67,7 +67,7 @@ fn what_took_several_modules_is_over_when_all_of_them_are_sound() {
 
 /// Nothing asks for the camera to return, so what took it as well is never over.
 #[test]
-fn what_took_a_module_that_does_not_return_is_not_over() {
+fn a_failure_of_a_module_that_does_not_return_is_not_over() {
     let both = Modules::of(&[Module::Cam, Module::Mcl]);
     assert_eq!(returns(&[(1_000, 10_000, Flag::ModuleSilent, both, both)]).0, []);
 }
@@ -75,7 +75,7 @@ fn what_took_a_module_that_does_not_return_is_not_over() {
 /// The sonars return twice, which is all that they may; localisation returned with them and has
 /// its own returns still.
 #[test]
-fn what_returns_with_the_sonars_keeps_its_own_returns() {
+fn a_module_that_returns_with_the_sonars_keeps_its_own_returns() {
     let left = available(Modules::NONE, Resources::of(&[Resource::SonarArrays]));
     let gone = Modules::ALL.without(left);
     let mcl = Modules::of(&[Module::Mcl]);
@@ -87,7 +87,7 @@ fn what_returns_with_the_sonars_keeps_its_own_returns() {
     let whole = |now| (now, Modules::NONE);
     let (returned, told) = returns(&spans);
     assert_eq!(returned, [12_000, 24_000, 36_000].map(whole));
-    // What the sonars hid is told first, so that it is there when they are.
+    // Losses hidden by the sonars are reported first, so that they are there when the sonars are.
     assert_eq!(told, [Mcl, Avoidance, Sonar, Mcl, Avoidance, Sonar, Mcl]);
 }
 

@@ -56,7 +56,8 @@ fn added(instance: &Instance, answer: &Assignment) -> Option<u64> {
     Some(sum)
 }
 
-/// What tasks pay at these prices, less the prices: no assignment costs less.
+/// Returns the sum of the least costs of the tasks at these prices, less the prices: no assignment
+/// costs less.
 fn at_prices(instance: &Instance, prices: &[u64]) -> u64 {
     let pays = |it: &cotama_models::team::instance::InstanceTask| {
         let costs = it.plans[0].costs.iter().zip(prices);
@@ -201,7 +202,7 @@ fn a_budget_of_nothing_leaves_a_true_bound() {
 }
 
 #[test]
-fn what_is_too_large_has_a_bound_and_no_answer() {
+fn an_instance_that_is_too_large_has_a_bound_and_no_answer() {
     let names: Vec<_> = (0..200).map(|it| Some(it + 5)).collect();
     let task = |skip| {
         format!("{{\"name\": \"{skip}\", \"skip_cost\": {skip}, \"cost\": {}}}", list(&names))
@@ -225,7 +226,7 @@ fn without_robots_tasks_are_left_undone() {
 }
 
 #[test]
-fn greedy_rounds_cost_what_the_table_of_the_thesis_says() {
+fn greedy_rounds_cost_as_much_as_in_the_table_of_the_thesis() {
     let greedy = |number: usize| {
         let (name, text) = &files("teams")[number];
         Instance::parse(name, text).unwrap().greedy().unwrap()

@@ -30,7 +30,7 @@ const RIGHT: &str = r#"{
    {"name": "both", "roles": [{"name": "left", "cost": [1, 2]}, {"name": "right", "cost": [2, 1]}]},
    {"name": "alone", "extra_cost": 4, "roles": [{"name": "all", "cost": [null, 5]}]}]}]}"#;
 
-/// What is said of the right instance with something else in it.
+/// Returns the errors of the right instance with one text replaced.
 fn said(from: &str, to: &str) -> String {
     assert!(RIGHT.contains(from), "{from}");
     let errors = Instance::parse("it.json", &RIGHT.replacen(from, to, 1)).unwrap_err();
@@ -38,7 +38,7 @@ fn said(from: &str, to: &str) -> String {
 }
 
 #[test]
-fn the_broken_files_say_what_is_wrong() {
+fn the_broken_files_get_an_error_that_names_the_cause() {
     let mut told = String::new();
     for (name, text) in files("teams/broken") {
         writeln!(told, "{}\n", Instance::parse(&name, &text).unwrap_err()).unwrap();
@@ -53,7 +53,7 @@ fn the_broken_files_say_what_is_wrong() {
         ("\"skip_cost\": null, ", ""),
         ("\"skip_cost\": null", "\"skip_cost\": 1, \"skip_cost\": 2"),
         ("[3, 2]", "[3, \"2\"]"),
-        ("[3, 2]", "[3, 1e3]"),
+        ("[3, 2]", "[3, 1e-3]"),
         ("[3, 2]", "[3, 1000000001]"),
         ("[3, 2]", "3"),
         ("\"anna\"", "\"\""),
@@ -83,7 +83,7 @@ fn the_broken_files_say_what_is_wrong() {
 }
 
 #[test]
-fn what_else_is_in_a_file_is_passed_over() {
+fn unknown_fields_of_a_file_are_passed_over() {
     let more = RIGHT.replacen("\"tasks\"", "\"drawn_by\": [{\"a\": [1.5e-3, true]}], \"tasks\"", 1);
     assert_eq!(Instance::parse("", &more).unwrap(), Instance::parse("", RIGHT).unwrap());
     let mark = format!("\u{feff}{RIGHT}");
@@ -96,10 +96,12 @@ fn what_else_is_in_a_file_is_passed_over() {
 }
 
 #[test]
-fn many_errors_are_counted() {
+fn many_errors_of_one_cause_are_one_that_is_counted() {
     let costs = format!("[{}]", vec!["-1"; 20_000].join(","));
     let errors = Instance::parse("", &RIGHT.replacen("[3, 2]", &costs, 1)).unwrap_err();
-    assert_eq!((errors.diagnostics().len(), errors.omitted()), (100, 9_900));
+    let [_, one] = errors.diagnostics() else { panic!("{errors}") };
+    assert_eq!((one.times, one.also.len(), errors.omitted()), (20_000, 4, 0));
+    assert!(errors.to_string().contains("`-1` is below 0 (so at 20000 places)"), "{errors}");
 }
 
 proptest! {

@@ -3,7 +3,7 @@
 use cotama_models::team::instance::{Instance, Verdict};
 use cotama_models::team::{
     Action, ActionPlan, Bid, Capability, Constraint, Probability, Reliability, Robot, Role, Skill,
-    TaskPlan, by_reliability, capable,
+    by_reliability, capable,
 };
 use std::cmp::Ordering;
 
@@ -14,7 +14,7 @@ fn half_and_sure() -> [Skill; 2] {
 }
 
 #[test]
-fn what_always_failed_is_not_there() {
+fn a_capability_that_always_failed_is_not_there() {
     let uses = |succeeded, failed| Reliability::Uses { succeeded, failed }.is_there();
     assert_eq!([uses(0, 0), uses(0, 1), uses(1, 0), uses(1, 9)], [true, false, true, true]);
 }
@@ -51,7 +51,7 @@ fn any_of_several_action_plans_fills_a_role() {
     let ways = actions.each_ref().map(|it| ActionPlan { name: "way", actions: it });
     for ways in [ways, [ways[1], ways[0]]] {
         let roles = [Role { name: "role", plans: &ways }];
-        let able = capable(&TaskPlan { name: "plan", extra: 0, roles: &roles }, &[robot]).unwrap();
+        let able = capable(&roles, &[robot]).unwrap();
         assert!(able.union && able.roles && able.matching);
     }
 }
@@ -85,9 +85,9 @@ fn of_plans_that_cost_the_same_the_one_with_fewer_roles_is_taken() {
     }
 }
 
-/// What a plan costs besides its robots counts in the bound of an instance that is too large.
+/// The cost of a plan besides its robots counts in the bound of an instance that is too large.
 #[test]
-fn the_bound_of_what_is_too_large_has_what_plans_cost_besides() {
+fn the_bound_of_a_too_large_instance_has_the_extra_cost_of_plans() {
     let costs = (0..200).map(|it| (it + 5).to_string()).collect::<Vec<_>>().join(", ");
     let task = format!(
         "\"skip_cost\": null, \"combine\": \"mean\", \"plans\": [{{\"name\": \"p\", \

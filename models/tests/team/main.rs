@@ -7,4 +7,17 @@ mod answers;
 mod broken;
 #[cfg(feature = "std")]
 mod choices;
+#[cfg(feature = "std")]
+mod conflicts;
+#[path = "../../../core/tests/common/draw.rs"]
+#[allow(unreachable_pub)]
+mod draw;
 mod laws;
+#[path = "../../../core/tests/team/tables.rs"]
+#[allow(unreachable_pub, dead_code)] // its other half is of the core's tests
+mod tables;
+#[path = "../../../core/tests/team/teams.rs"]
+#[allow(unreachable_pub)]
+mod teams;
+#[cfg(feature = "std")]
+mod thesis;

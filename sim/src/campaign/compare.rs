@@ -1,26 +1,28 @@
 //! Policies over the same fault plans.
 
 use super::run::{Campaign, Settings, Shard};
-use super::statistics::{
-    Difference, Interval, clopper_pearson, mcnemar, mean_interval, paired_difference,
-};
+use super::statistics::{Difference, Interval, mcnemar, mean_interval, paired_difference};
 use super::subject::{Policy, Subject, Unready};
 use crate::run::Outcome;
 use cotama_models::missions::Mission;
 use std::ops::ControlFlow;
 
-/// What a policy comes to.
+/// The result of a policy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Compared {
-    /// Its name.
+    /// Name of the policy.
     pub name: String,
     /// How many runs were completed, ended safely, and failed.
     pub outcomes: [u64; 3],
-    /// The probability that a mission is completed.
-    pub success: Interval,
-    /// The mean time used in ms, energy in mJ, requests to the operator and plans made again.
-    pub means: [Interval; 4],
-    /// Against the first policy; none of the first.
+    /// The probability that a mission is completed; none where nothing was
+    /// [sampled](super::sampling::Sampling).
+    pub success: Option<Interval>,
+    /// The means over these plans: time used in ms, energy in mJ, requests to the operator, plans
+    /// made again.
+    pub means: [f64; 4],
+    /// Their intervals, of all plans drawn so; none where nothing was sampled, or one run only.
+    pub intervals: Option<[Interval; 4]>,
+    /// Against the first policy; none of the first, nor where nothing was sampled.
     pub against: Option<Against>,
 }
 
@@ -36,7 +38,9 @@ pub struct Against {
 /// Whether a run was completed, and its numbers.
 type Row = (bool, [f64; 4]);
 
-/// Runs the same plans with each policy, on so many threads.
+/// Runs the same plans with each policy, on so many threads. A strategy that counts its plans runs
+/// no more than there are. Each interval holds the truth as often as `confidence` says, from 0 to
+/// 1.
 ///
 /// # Errors
 /// An [`Unready`] for a mission that cannot be run by one of them.
@@ -49,7 +53,7 @@ type Row = (bool, [f64; 4]);
 /// let rigid = Policy { rigid: true, ..Policy::default() };
 /// let policies = [("rigid".to_owned(), rigid), ("rule".to_owned(), Policy::default())];
 /// let settings = Settings { runs: 200, ..Settings::new(false) };
-/// let found = compare(&mission, &policies, &settings, 2).unwrap();
+/// let found = compare(&mission, &policies, &settings, 0.95, 2).unwrap();
 /// assert!(found[1].outcomes[0] > found[0].outcomes[0]);
 /// assert!(found[1].against.as_ref().unwrap().success.success.low > 0.0);
 /// ```
@@ -57,10 +61,9 @@ pub fn compare(
     mission: &Mission,
     policies: &[(String, Policy)],
     settings: &Settings,
+    confidence: f64,
     jobs: usize,
 ) -> Result<Vec<Compared>, Unready> {
-    /// How often each interval holds the truth.
-    const CONFIDENCE: f64 = 0.95;
     let mut first: Vec<Row> = Vec::new();
     let mut found = Vec::new();
     for (name, policy) in policies {
@@ -76,7 +79,8 @@ pub fn compare(
         });
         let runs = rows.len() as u64;
         let column = |axis: usize| rows.iter().map(|it| it.1[axis]).collect::<Vec<_>>();
-        let against = (!first.is_empty()).then(|| {
+        let sampling = campaign.sampling(runs, false);
+        let against = (!first.is_empty() && sampling.estimates()).then(|| {
             let only = |mine: bool| {
                 let pairs = first.iter().zip(&rows);
                 pairs.filter(|(a, b)| a.0 != b.0 && b.0 == mine).count() as u64
@@ -86,15 +90,17 @@ pub fn compare(
                 pairs.map(|(a, b)| (a.1[axis], b.1[axis])).collect::<Vec<_>>()
             };
             Against {
-                success: mcnemar(only(false), only(true), runs, CONFIDENCE),
-                means: [0, 1, 2, 3].map(|axis| paired_difference(&pairs(axis), CONFIDENCE)),
+                success: mcnemar(only(false), only(true), runs, confidence),
+                means: [0, 1, 2, 3].map(|axis| paired_difference(&pairs(axis), confidence)),
             }
         });
         found.push(Compared {
             name: name.clone(),
             outcomes,
-            success: clopper_pearson(outcomes[0], runs, CONFIDENCE),
-            means: [0, 1, 2, 3].map(|axis| mean_interval(&column(axis), CONFIDENCE)),
+            success: sampling.interval(outcomes[0], runs, confidence),
+            means: [0, 1, 2, 3].map(|axis| column(axis).iter().sum::<f64>() / runs.max(1) as f64),
+            intervals: (sampling.estimates() && runs > 1)
+                .then(|| [0, 1, 2, 3].map(|axis| mean_interval(&column(axis), confidence))),
             against,
         });
         if first.is_empty() {

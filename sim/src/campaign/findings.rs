@@ -2,12 +2,13 @@
 
 use super::observed::{Observed, state_name};
 use super::plan::{Fault, Plan};
+use super::recorded;
 use super::requirement::Requirement;
 use super::results::Tally;
 use super::shrink::shrink;
 use super::subject::Subject;
-use cotama_models::missions::faults::{EventKind, Faults, Moment};
-use cotama_models::missions::{Definition, Mission};
+use crate::run::Outcome;
+use cotama_models::missions::faults::{EventKind, Moment};
 use std::fmt::Write;
 
 /// Failing runs with one cause: their shrunk plans have the same faults.
@@ -21,8 +22,10 @@ pub struct Cluster {
     pub runs: Vec<u64>,
     /// The smallest plan of any of them: the fewest faults, then the shortest text.
     pub plan: Plan,
-    /// The scenario: a commented `panorama-faults/1` file.
+    /// The scenario: a commented `panorama-faults/1` file, with who plans and how the run ends.
     pub scenario: String,
+    /// The file that it was written to, if it was.
+    pub file: Option<String>,
 }
 
 /// Failing runs by their causes.
@@ -35,7 +38,7 @@ pub struct Cluster {
 /// use cotama_sim::campaign::subject::{Policy, Subject};
 /// let delivery = embedded::mission("delivery").unwrap();
 /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
-/// let requirements = vec!["requests<=1".parse().unwrap()];
+/// let requirements = ["requests<=1".parse().unwrap()].into();
 /// let settings = Settings { runs: 40, requirements, ..Settings::new(true) };
 /// let subject = Subject::new(&mission, Policy::default()).unwrap();
 /// let campaign = Campaign::new(subject, settings).unwrap();
@@ -65,13 +68,12 @@ impl Findings {
         kept: &Tally,
         most: usize,
     ) -> Self {
-        let (mission, mut found) = (subject.mission(), Self::default());
+        let mut found = Self::default();
         for requirement in requirements {
             let lines = kept.kept.get(&requirement.to_string()).map_or(&[][..], Vec::as_slice);
             for line in lines.iter().take(most) {
                 let Some(text) = &line.plan else { continue };
-                let Ok(faults) = Faults::parse("a result", text, mission) else { continue };
-                let plan = Plan::from(&faults);
+                let Some(plan) = subject.plan(text) else { continue };
                 let shrunk = shrink(subject, requirement, &plan);
                 found.shrunk += 1;
                 found.cost = (found.cost.0 + shrunk.runs, found.cost.1.max(shrunk.runs));
@@ -93,8 +95,8 @@ impl Findings {
         plan: Plan,
         subject: &Subject<'_>,
     ) {
-        let signature = plan.named_signature(subject.mission());
-        let size = |plan: &Plan| (plan.faults.len(), compact(plan, subject.mission()).len());
+        let signature = subject.signature(&plan);
+        let size = |plan: &Plan| (plan.faults.len(), subject.text(plan).len());
         let scenario = |plan: &Plan| scenario(plan, what, subject, run, from);
         let same = |it: &&mut Cluster| it.requirement == *what && it.signature == signature;
         if let Some(cluster) = self.clusters.iter_mut().find(same) {
@@ -105,7 +107,14 @@ impl Findings {
             return;
         }
         let (scenario, requirement) = (scenario(&plan), what.clone());
-        self.clusters.push(Cluster { requirement, signature, runs: vec![run], plan, scenario });
+        self.clusters.push(Cluster {
+            requirement,
+            signature,
+            runs: vec![run],
+            plan,
+            scenario,
+            file: None,
+        });
     }
 }
 
@@ -117,15 +126,18 @@ pub fn scenario(
     run: u64,
     from: usize,
 ) -> String {
-    let observed = subject.run(plan);
-    let mut text = comment(&format!("Breaks `{requirement}`: {}.", requirement.words()));
+    // A requirement broken beside this one ends no run: the file is held against this alone.
+    let alone = subject.clone().watching(std::slice::from_ref(requirement));
+    let alone = alone.as_ref().unwrap_or(subject);
+    let observed = alone.run(plan);
+    let mut text = comment(&format!("Breaks `{requirement}`: {}.", subject.meaning(requirement)));
     let fault = |count: usize| if count == 1 { "fault" } else { "faults" };
     let count = plan.faults.len();
     let _ = writeln!(text, "# Run {run}, {from} {}, made small: {count}.", fault(from));
-    story(subject.mission(), plan, &observed).iter().for_each(|it| {
+    story(subject, plan, &observed).iter().for_each(|it| {
         text.push_str(&comment(&format!("- {it}")));
     });
-    text + &compact(plan, subject.mission())
+    text + &subject.text(plan) + &recorded::tables(subject, requirement, &observed)
 }
 
 /// A text as lines of a comment, of at most 100 characters as far as its words allow.
@@ -141,8 +153,8 @@ fn comment(text: &str) -> String {
     lines + &line + "\n"
 }
 
-/// What happened, in a few sentences.
-fn story(mission: &Mission, plan: &Plan, run: &Observed) -> Vec<String> {
+/// Returns the story of the run, in a few sentences.
+fn story(subject: &Subject<'_>, plan: &Plan, run: &Observed) -> Vec<String> {
     let mut lines = Vec::new();
     for fault in &plan.faults {
         if let Fault::Failure { when, mode, .. } = fault {
@@ -158,15 +170,17 @@ fn story(mission: &Mission, plan: &Plan, run: &Observed) -> Vec<String> {
                 text.failure
             ));
         } else if let Fault::Event(it) = fault {
-            let what = Plan { faults: vec![fault.clone()] }.named_signature(mission);
+            let what = subject.signature(&Plan { faults: vec![fault.clone()] });
             let size = match it.kind {
                 EventKind::Obstacle { delay } => format!(" of {} ms", delay.0),
                 EventKind::Odometry { extra } => format!(" of {} mm", extra.0),
                 _ => String::new(),
             };
             lines.push(format!("{}, {what}{size}", Moment::Place(it.x)));
+        } else if let Fault::Team(it) = fault {
+            lines.push(subject.story_of(it));
         } else if let Fault::Power(it) = fault {
-            let what = Plan { faults: vec![fault.clone()] }.named_signature(mission);
+            let what = subject.signature(&Plan { faults: vec![fault.clone()] });
             lines.push(format!("{what} differs by {} ‰", it.permille));
         }
     }
@@ -181,12 +195,12 @@ fn story(mission: &Mission, plan: &Plan, run: &Observed) -> Vec<String> {
     }
     let metres = |mm: u64| format!("{}.{} m", mm / 1_000, mm / 100 % 10);
     let seconds = |ms: u64| format!("{}.{:03} s", ms / 1_000, ms % 1_000);
-    let mut end = format!(
-        "the run is {} after {} and {}",
-        run.outcome.name(),
-        seconds(run.time_ms),
-        metres(run.x_mm)
-    );
+    let (outcome, time) = (run.outcome.name(), seconds(run.time_ms));
+    let mut end = match (subject.is_team(), run.outcome) {
+        (true, Outcome::Safe) => format!("the last task is done or reported after {time}"),
+        (true, _) => format!("the run is {outcome} after {time}"),
+        (false, _) => format!("the run is {outcome} after {time} and {}", metres(run.x_mm)),
+    };
     if run.exposed_ms > 0 {
         let _ = write!(end, "; it moved {} without a required module", seconds(run.exposed_ms));
     }
@@ -194,21 +208,9 @@ fn story(mission: &Mission, plan: &Plan, run: &Observed) -> Vec<String> {
         let _ = write!(end, "; requests to the operator: {}", run.requests);
     }
     if run.replans > 0 {
-        let _ = write!(end, "; plans made again: {}", run.replans);
+        let what = if subject.is_team() { "tasks put up again" } else { "plans made again" };
+        let _ = write!(end, "; {what}: {}", run.replans);
     }
     lines.push(end);
     lines
-}
-
-/// A plan as a `panorama-faults/1` file with a line for each fault.
-pub fn compact(plan: &Plan, mission: &Definition) -> String {
-    let text = plan.to_toml(mission);
-    let (head, events) =
-        text.split_once("\n[[event]]\n").map_or((text.as_str(), None), |it| (it.0, Some(it.1)));
-    let Some(events) = events else { return head.to_owned() };
-    let lines = events.split("\n[[event]]\n").map(|it| {
-        let keys: Vec<_> = it.lines().filter(|it| !it.is_empty()).collect();
-        format!("  {{ {} }},\n", keys.join(", "))
-    });
-    format!("{head}event = [\n{}]\n", lines.collect::<String>())
 }

@@ -14,10 +14,12 @@ pub mod observed;
 pub mod plan;
 #[cfg(feature = "proptest")]
 pub mod plans;
-pub mod rare;
+pub mod recorded;
 pub mod requirement;
+pub mod requirements;
 pub mod results;
 pub mod run;
+pub mod sampling;
 pub mod shrink;
 pub mod space;
 pub mod statistics;

@@ -1,14 +1,16 @@
-//! What is observed of one run.
+//! Observations of one run.
 
+use crate::body::{Motion, effect};
+use crate::fleet::{self, record::Fate};
 use crate::run::Outcome;
 use crate::streams::fnv1a;
-use crate::supervised::{self, Monitor, Motion, effect};
+use crate::supervised::{self, Monitor};
 use cotama_models::cotama::{Diagnosis, FailureMode, local};
 use cotama_models::missions::faults::Moment;
 use serde::{Deserialize, Serialize};
 
-/// What is observed of one run. What is serialised is what a [`Line`](super::run::Line) of the
-/// results holds.
+/// The observations of one run. A [`Line`](super::run::Line) of the results holds the serialised
+/// ones.
 ///
 /// ```
 /// use cotama_models::missions::{Mission, embedded};
@@ -50,11 +52,11 @@ pub struct Observed {
     /// Whether a motor ran away, so that it could not brake as it was told.
     #[serde(skip)]
     pub ran_away: bool,
-    /// What failed, and where the local supervisor was then: rows of the FMECA by state.
+    /// Failures and the state of the local supervisor then: rows of the FMECA by state.
     #[serde(skip)]
     pub met: Vec<(FailureMode, local::State)>,
-    /// What the run came through: hashes of transitions, of diagnoses, of decisions, of plans; each
-    /// once, sorted.
+    /// Features that the run came through: hashes of transitions, of diagnoses, of decisions, of
+    /// plans; each once, sorted.
     #[serde(skip)]
     pub features: Vec<u64>,
     /// The supervisors' transitions that fired, as `ls.l5`, each once, sorted.
@@ -68,7 +70,7 @@ pub struct Observed {
 /// The requirement that supervisors of the caller's do what those that are shipped do.
 pub(super) const CONFORMS: &str = "conforms";
 
-/// What broke a requirement while a run went on.
+/// A broken requirement, seen while a run went on.
 ///
 /// ```
 /// use cotama_models::missions::{Mission, embedded};
@@ -86,13 +88,13 @@ pub struct Witness {
     pub requirement: String,
     /// When, in ms.
     pub at_ms: u64,
-    /// What the supervisors did last, in one round, as `ls.l5`; or the place in which they departed
-    /// from what is shipped.
+    /// The last actions of the supervisors, in one round, as `ls.l5`; or the place in which they
+    /// departed from the shipped ones.
     pub seen: Vec<String>,
 }
 
 impl Observed {
-    /// Of a run that never began.
+    /// Returns the observations of a run that never began.
     pub(super) const fn nothing() -> Self {
         Self {
             outcome: Outcome::Failed,
@@ -114,7 +116,33 @@ impl Observed {
         }
     }
 
-    /// Of a run under supervisors that were watched by these monitors.
+    /// Returns the observations of a team's run.
+    pub(super) fn of_team(run: &fleet::record::Run) -> Self {
+        let reported = run.count(Fate::Reported) as u64;
+        let outcome = match (run.is_sound(), reported) {
+            (false, _) => Outcome::Failed,
+            (true, 0) => Outcome::Completed,
+            (true, _) => Outcome::Safe,
+        };
+        let rounds = u64::from(run.rounds).ilog2_or_zero();
+        let mut features = vec![
+            feature("outcome", &[outcome as u64]),
+            feature("reported", &[reported.ilog2_or_zero()]),
+            feature("reopened", &[u64::from(run.reopened).ilog2_or_zero()]),
+            feature("rounds", &[rounds, run.out as u64]),
+        ];
+        features.sort_unstable();
+        Self {
+            outcome,
+            time_ms: run.end_ms,
+            energy_mj: run.energy_mj,
+            replans: u64::from(run.reopened),
+            features,
+            ..Self::nothing()
+        }
+    }
+
+    /// Returns the observations of a run under supervisors that were watched by these monitors.
     pub fn of(run: &supervised::Run, monitors: &[Monitor]) -> Self {
         let mut features = vec![feature("outcome", &[run.outcome as u64])];
         let mut fired: Vec<(&str, &str)> =

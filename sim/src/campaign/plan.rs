@@ -1,4 +1,4 @@
-//! What goes wrong in one run of a campaign: a list of faults, as data.
+//! The faults of one run of a campaign: a list, as data.
 
 use crate::faults_text::faults_text;
 use crate::supervised::{Answers, Injection, Script, When};
@@ -8,8 +8,9 @@ use cotama_models::missions::Definition;
 use cotama_models::missions::faults::{
     Event, EventKind, Faults, Incident, IncidentKind, PowerError,
 };
+use cotama_models::team::scenario::{self, FaultKind};
 
-/// What goes wrong in one run.
+/// The faults of one run.
 ///
 /// A plan is data: it is drawn, mutated, shrunk and printed, and a run is a function of it. As a
 /// `panorama-faults/1` file it is read back by `cotama run` and `cotama replay`.
@@ -59,12 +60,14 @@ pub enum Fault {
         /// When it ends, if not by itself.
         until: Option<When>,
     },
-    /// What the operator answers to the first request from a place on.
+    /// The answers of the operator to the first request from a place on.
     Operator(Answers),
     /// Something that happens at a place of a mission that is run by its plans alone.
     Event(Event),
     /// Real power differs from the modelled one in a zone of such a mission.
     Power(PowerError),
+    /// Something that goes wrong in a team.
+    Team(scenario::Fault),
 }
 
 impl Fault {
@@ -73,7 +76,7 @@ impl Fault {
         Self::Failure { when, mode, part: None, until: None }
     }
 
-    /// What it is, without its moment: what two plans with the same cause share.
+    /// Returns the name of the fault without its moment: two plans with the same cause share it.
     ///
     /// ```
     /// use cotama_core::units::Millis;
@@ -100,12 +103,17 @@ impl Fault {
                 }
             },
             Self::Power(it) => format!("power in zone {}", it.zone),
+            Self::Team(it) => match it.what {
+                FaultKind::Robot(_, mode) => mode.name().to_owned(),
+                FaultKind::Shifted(_) => "an object shifted".to_owned(),
+                FaultKind::Turned(..) => "an object turned".to_owned(),
+            },
         }
     }
 }
 
 impl From<&Faults> for Plan {
-    /// What a file says, less its random events, which are drawn by each run.
+    /// Returns the faults of a file, less its random events, which are drawn by each run.
     fn from(faults: &Faults) -> Self {
         let script = Script::from(faults);
         let failure = |it: &Injection| Fault::Failure {
@@ -147,35 +155,60 @@ impl From<&Plan> for Faults {
                         None => faults.power_errors.push(*it),
                     }
                 }
+                // No mission has one.
+                Fault::Team(_) => {}
             }
         }
+        // As a file is read, so that a plan is run as its file is.
         faults.events.sort_by_key(|it| it.x);
+        faults.incidents.sort_by_key(|it| it.when.key());
         faults
     }
 }
 
 impl From<&Plan> for Script {
     fn from(plan: &Plan) -> Self {
-        let mut script = Self::default();
-        for fault in &plan.faults {
-            match fault {
-                Fault::Failure { when, mode, part, until } => {
-                    let it = Injection::new(*when, *mode);
-                    let (part, until) = (part.unwrap_or(it.part), *until);
-                    script.injections.push(Injection { part, until, ..it });
-                }
-                Fault::Operator(it) => script.answers.push(it.clone()),
-                Fault::Event(_) | Fault::Power(_) => {}
-            }
-        }
-        script
+        Self::from(&Faults::from(plan))
     }
 }
 
 impl Plan {
+    /// Whether all its places lie on a path of this length.
+    pub fn is_within(&self, path: Millimetres) -> bool {
+        let on_it = |when: When| !matches!(when, When::Place(x) if x > path);
+        self.faults.iter().all(|it| match it {
+            Fault::Failure { when, until, .. } => on_it(*when) && until.is_none_or(on_it),
+            Fault::Operator(it) => it.x <= path,
+            Fault::Event(it) => it.x <= path,
+            Fault::Power(_) | Fault::Team(_) => true,
+        })
+    }
+
+    /// The faults of a team in it.
+    pub fn of_team(&self) -> Vec<scenario::Fault> {
+        let team = self.faults.iter().filter_map(|it| match it {
+            Fault::Team(it) => Some(*it),
+            _ => None,
+        });
+        team.collect()
+    }
+
     /// As the text of a `panorama-faults/1` file.
     pub fn to_toml(&self, mission: &Definition) -> String {
         faults_text(&Faults::from(self), mission)
+    }
+
+    /// As a `panorama-faults/1` file with a line for each fault.
+    pub fn compact(&self, mission: &Definition) -> String {
+        let text = self.to_toml(mission);
+        let (head, events) =
+            text.split_once("\n[[event]]\n").map_or((text.as_str(), None), |it| (it.0, Some(it.1)));
+        let Some(events) = events else { return head.to_owned() };
+        let lines = events.split("\n[[event]]\n").map(|it| {
+            let keys: Vec<_> = it.lines().filter(|it| !it.is_empty()).collect();
+            format!("  {{ {} }},\n", keys.join(", "))
+        });
+        format!("{head}event = [\n{}]\n", lines.collect::<String>())
     }
 
     /// The names of its faults, sorted, each once: the signature of its cause.

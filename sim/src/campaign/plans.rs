@@ -31,7 +31,7 @@ pub fn plans(space: Space) -> Plans {
     Plans { space }
 }
 
-/// What [`plans`] makes.
+/// The strategy made by [`plans`].
 #[derive(Clone, Debug)]
 pub struct Plans {
     space: Space,
@@ -72,7 +72,7 @@ pub struct PlanTree {
     /// The simplest plan that is known to fail.
     best: Plan,
     current: Plan,
-    /// What one step makes of the best one, the next one last.
+    /// Plans one step from the best one, the next one last.
     left: Vec<Plan>,
 }
 

@@ -1,4 +1,4 @@
-//! What must hold of every run, whatever fails.
+//! Requirements of every run, whatever fails.
 
 use super::observed::{CONFORMS, Observed};
 use super::plan::{Fault, Plan};
@@ -10,7 +10,7 @@ use std::fmt;
 /// the speed of the experiment.
 pub const BRAKING_MM: u64 = 150;
 
-/// What must hold of a run.
+/// A requirement of a run.
 ///
 /// ```
 /// use cotama_sim::campaign::requirement::Requirement;
@@ -25,14 +25,15 @@ pub const BRAKING_MM: u64 = 150;
 pub enum Requirement {
     /// The mission is completed within its limits.
     Completed,
-    /// It is completed, or the robot stands safely.
+    /// The run is completed, or the robot stands safely.
     NotFailed,
     /// The robot never moves after it is safe.
     StandsWhenSafe,
-    /// It brakes within [`BRAKING_MM`] when the permit to move is gone, unless a motor ran away.
+    /// The robot brakes within [`BRAKING_MM`] when the permit to move is gone, unless a motor ran
+    /// away.
     Brakes,
-    /// It never moves without a module that it requires for longer than the failures of the run
-    /// take to be detected, decided and answered, one after the other: [`allowed_ms`].
+    /// The robot never moves without a module that it requires for longer than the failures of the
+    /// run take to be detected, decided and answered, one after the other: [`allowed_ms`].
     InTime,
     /// A number of the run is at most so much.
     AtMost(Metric, u64),
@@ -72,7 +73,7 @@ pub enum Metric {
 impl Metric {
     const ALL: [Self; 4] = [Self::Time, Self::Energy, Self::Requests, Self::Exposed];
 
-    /// Its name: `time`, `energy`, `requests`, `exposed`.
+    /// Returns the name: `time`, `energy`, `requests`, `exposed`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Time => "time",
@@ -82,7 +83,7 @@ impl Metric {
         }
     }
 
-    /// Its value in a run.
+    /// Returns the value in a run.
     pub const fn of(self, run: &Observed) -> u64 {
         match self {
             Self::Time => run.time_ms,
@@ -129,7 +130,7 @@ impl Requirement {
             i64::try_from(left).unwrap_or(i64::MIN)
         };
         match self {
-            // What a broken property ended says nothing of its end.
+            // A run ended by a broken property says nothing of its end.
             Self::Completed | Self::NotFailed if run.witness.is_some() => 1,
             Self::Completed => i64::from(run.outcome == Outcome::Completed),
             Self::NotFailed => i64::from(run.outcome != Outcome::Failed),
@@ -143,6 +144,14 @@ impl Requirement {
             Self::PlansWithWhatWorks => i64::from(!run.planned_with_lost),
             Self::Conforms => Self::unbroken(run, CONFORMS),
             Self::Always(text) => Self::unbroken(run, text),
+        }
+    }
+
+    /// Whether it says what another one says: blanks of a property are none of its words.
+    pub(super) fn says_what(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Always(one), Self::Always(other)) => unspaced(one) == unspaced(other),
+            _ => self == other,
         }
     }
 
@@ -166,7 +175,7 @@ impl Requirement {
         )
     }
 
-    /// What it says, in words.
+    /// Returns the requirement in words.
     pub fn words(&self) -> String {
         match self {
             Self::Completed => "the mission is completed within its limits".into(),
@@ -200,6 +209,35 @@ impl Requirement {
             Self::Always(_) => "it holds of the supervisors at the end of every round".into(),
         }
     }
+}
+
+/// A property without blanks, but for those inside of names and between two words.
+fn unspaced(text: &str) -> String {
+    let is_word = |it: char| it.is_alphanumeric() || "_'.".contains(it);
+    let (mut out, mut closes, mut escaped, mut blank) = (String::new(), None, false, false);
+    for letter in text.chars() {
+        if let Some(close) = closes {
+            out.push(letter);
+            closes = closes.filter(|_| escaped || letter != close);
+            escaped = !escaped && letter == '\\';
+            continue;
+        }
+        if letter.is_whitespace() {
+            blank = true;
+            continue;
+        }
+        if blank && is_word(letter) && out.ends_with(is_word) {
+            out.push(' ');
+        }
+        closes = match letter {
+            '"' => Some('"'),
+            '{' => Some('}'),
+            _ => None,
+        };
+        (blank, escaped) = (false, false);
+        out.push(letter);
+    }
+    out
 }
 
 const PLAIN: [(&str, Requirement); 8] = [

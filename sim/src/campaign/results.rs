@@ -1,17 +1,19 @@
-//! What the runs of a campaign come to: a header, lines, and what is counted of them.
+//! The results of a campaign: a header, lines, and counts over them.
 
-use super::run::{Line, Settings, Shard};
+use super::requirements::Requirements;
+use super::run::{Line, MAX_FAULTS, MAX_RUNS, MAX_SHARDS, Settings, Shard};
 use super::space::Rates;
-use super::statistics::{Interval, clopper_pearson};
 use super::strategy::StrategyName;
+use crate::options::Planner;
 use crate::run::Outcome;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::fmt;
 
 /// The schema of [`Header`].
 pub const SCHEMA: &str = "cotama-campaign/1";
 
-/// What a campaign runs, as a file beside its results: all that they depend on.
+/// The settings of a campaign, as a file beside its results: all that they depend on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Header {
     /// [`SCHEMA`].
@@ -22,7 +24,7 @@ pub struct Header {
     pub mission_source: String,
     /// The whole text of the mission file.
     pub mission: String,
-    /// How many runs.
+    /// Number of runs.
     pub runs: u64,
     /// The seed of all draws.
     pub seed: u64,
@@ -32,16 +34,20 @@ pub struct Header {
     pub rates: String,
     /// The fewest and the most faults of a plan.
     pub faults: (u64, u64),
-    /// What must hold.
-    pub requirements: Vec<String>,
-    /// Who plans.
+    /// Requirements of every run.
+    pub requirements: Requirements,
+    /// How plans are adapted.
     pub policy: String,
+    /// Planner of the runs; as the mission file and the policy say if `None`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub planner: Option<Planner>,
     /// Which part of the runs these are.
     pub shard: Shard,
 }
 
 impl Header {
-    /// The header of a campaign; `policy` is the name of who plans.
+    /// The header of a campaign; `policy` is the name of how plans are adapted, by the planner of
+    /// the mission or of that policy.
     pub fn new(
         (mission_source, mission): (&str, &str),
         settings: &Settings,
@@ -58,27 +64,45 @@ impl Header {
             strategy: settings.strategy.name().into(),
             rates: settings.rates.name().into(),
             faults: settings.faults,
-            requirements: settings.requirements.iter().map(ToString::to_string).collect(),
+            requirements: settings.requirements.clone(),
             policy: policy.into(),
+            planner: None,
             shard,
         }
     }
 
-    /// What was drawn and asked; none for a header that names something unknown.
-    pub fn settings(&self) -> Option<Settings> {
-        let strategy = StrategyName::ALL.into_iter().find(|it| it.name() == self.strategy)?;
-        let rates = [Rates::Even, Rates::Fmeca].into_iter().find(|it| it.name() == self.rates)?;
-        let requirements =
-            self.requirements.iter().map(|it| it.parse().ok()).collect::<Option<_>>();
-        let (seed, faults) = (self.seed, self.faults);
-        Some(Settings {
-            runs: self.runs,
-            seed,
-            strategy,
-            rates,
-            faults,
-            requirements: requirements?,
-        })
+    /// Returns the settings of the campaign.
+    ///
+    /// # Errors
+    /// A [`NotSettings`] that says which of its fields is beyond what a campaign takes.
+    pub fn settings(&self) -> Result<Settings, NotSettings> {
+        let strategy = StrategyName::ALL.into_iter().find(|it| it.name() == self.strategy);
+        let strategy = strategy.ok_or_else(|| NotSettings::Strategy(self.strategy.clone()))?;
+        let rates = [Rates::Even, Rates::Fmeca].into_iter().find(|it| it.name() == self.rates);
+        let rates = rates.ok_or_else(|| NotSettings::Rates(self.rates.clone()))?;
+        if !(1..=MAX_RUNS).contains(&self.runs) {
+            return Err(NotSettings::Runs(self.runs));
+        }
+        let (least, most) = self.faults;
+        if least > most || !(1..=MAX_FAULTS).contains(&most) {
+            return Err(NotSettings::Faults(least, most));
+        }
+        let Shard { index, of } = self.shard;
+        if !(1..=of).contains(&index) || of > MAX_SHARDS {
+            return Err(NotSettings::Shard(index, of));
+        }
+        let (runs, seed, faults) = (self.runs, self.seed, self.faults);
+        let requirements = self.requirements.clone();
+        Ok(Settings { runs, seed, strategy, rates, faults, requirements })
+    }
+
+    /// The digest of all that results depend on: equal for the shards of one campaign, and wherever
+    /// its mission was read from.
+    pub fn digest(&self) -> Digest {
+        let key = Self { shard: Shard::ALL, mission_source: String::new(), ..self.clone() };
+        let mut digest = Digest::default();
+        digest.add(serde_json::to_string(&key).unwrap_or_default().as_bytes());
+        digest
     }
 
     /// In what this differs from another header, but for the shard: the name of the first field.
@@ -94,11 +118,48 @@ impl Header {
             ("faults", self.faults != other.faults),
             ("requirements", self.requirements != other.requirements),
             ("policy", self.policy != other.policy),
+            ("planner", self.planner != other.planner),
             ("shard", self.shard.of != other.shard.of),
         ];
         differ.into_iter().find(|it| it.1).map(|it| it.0)
     }
 }
+
+/// Why a header asks for no campaign.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NotSettings {
+    /// No strategy is called so.
+    Strategy(String),
+    /// No rates are called so.
+    Rates(String),
+    /// The number of runs is zero, or more than [`MAX_RUNS`].
+    Runs(u64),
+    /// From more to fewer faults, to none, or to more than [`MAX_FAULTS`].
+    Faults(u64, u64),
+    /// The number of the shard is not one of the shards, or they are more than [`MAX_SHARDS`].
+    Shard(u64, u64),
+}
+
+impl fmt::Display for NotSettings {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Strategy(it) => write!(f, "there is no strategy `{}`", it.escape_debug()),
+            Self::Rates(it) => write!(f, "there are no rates `{}`", it.escape_debug()),
+            Self::Runs(it) => write!(f, "{it} runs: from 1 to {MAX_RUNS} are run"),
+            Self::Faults(least, most) => {
+                write!(f, "{least} to {most} faults: a run has up to {MAX_FAULTS}")
+            }
+            Self::Shard(index, of) if *of > MAX_SHARDS => {
+                write!(f, "shard {index}/{of}: there are at most {MAX_SHARDS}")
+            }
+            Self::Shard(index, of) => {
+                write!(f, "shard {index}/{of}: its number is not one of the shards")
+            }
+        }
+    }
+}
+
+impl std::error::Error for NotSettings {}
 
 /// A digest of lines, in their order: FNV-1a of 128 bits. It finds what differs by chance, not what
 /// somebody made to deceive.
@@ -129,7 +190,7 @@ impl Digest {
 /// The most failing runs that are kept of one requirement, to be shrunk.
 pub const MOST_KEPT: usize = 200;
 
-/// What is counted of lines, in the order of runs.
+/// Counts over lines, in the order of runs.
 ///
 /// ```
 /// use cotama_sim::campaign::results::Tally;
@@ -142,7 +203,7 @@ pub const MOST_KEPT: usize = 200;
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
-    /// How many runs.
+    /// Number of runs.
     pub runs: u64,
     /// How many ended how, in the order completed, safe, failed.
     pub outcomes: [u64; 3],
@@ -157,8 +218,11 @@ pub struct Tally {
     pub sums: [u128; 3],
     /// The first [`MOST_KEPT`] lines that broke each requirement.
     pub kept: BTreeMap<String, Vec<Line>>,
-    /// How many had failed after how many runs, at powers of two and at the end.
+    /// How many had failed after how many runs, at eight numbers of runs up to each doubling.
     pub course: Vec<(u64, u64)>,
+    /// By the metre in which runs ended: how many that broke a requirement, and how many others
+    /// that were not completed.
+    pub ended: BTreeMap<u64, (u64, u64)>,
     digest: Digest,
 }
 
@@ -191,13 +255,20 @@ impl Tally {
             *sum += u128::from(it);
         }
         for requirement in &line.violated {
+            let requirement = requirement.to_string();
             *self.violated.entry(requirement.clone()).or_default() += 1;
-            let kept = self.kept.entry(requirement.clone()).or_default();
+            let kept = self.kept.entry(requirement).or_default();
             if kept.len() < MOST_KEPT {
                 kept.push(line.clone());
             }
         }
-        if self.runs.is_power_of_two() {
+        if failed || line.observed.outcome != Outcome::Completed {
+            let (failing, others) = self.ended.entry(line.observed.x_mm / 1_000).or_default();
+            *if failed { failing } else { others } += 1;
+        }
+        // From 8 on the first four bits of the number change.
+        let step = 1_u64 << self.runs.ilog2().saturating_sub(3);
+        if self.runs.is_multiple_of(step) {
             self.course.push((self.runs, self.failing));
         }
     }
@@ -205,11 +276,5 @@ impl Tally {
     /// The digest of all lines.
     pub fn digest(&self) -> String {
         self.digest.hex()
-    }
-
-    /// The interval for the probability that a requirement is broken, of plans drawn as these were.
-    pub fn probability(&self, requirement: &str, confidence: f64) -> Interval {
-        let hits = self.violated.get(requirement).copied().unwrap_or(0);
-        clopper_pearson(hits, self.runs, confidence)
     }
 }

@@ -3,6 +3,8 @@
 use super::observed::{Observed, state_name};
 use super::plan::Plan;
 use super::requirement::Requirement;
+use super::requirements::Requirements;
+use super::sampling::Sampling;
 use super::space::{Rates, Space};
 use super::strategy::{BLOCK, Strategy, StrategyName};
 use super::subject::{Subject, Unready};
@@ -17,8 +19,10 @@ use std::thread;
 pub const MAX_RUNS: u64 = 1_000_000_000;
 /// The most faults of a plan.
 pub const MAX_FAULTS: u64 = 8;
+/// The most shards of a campaign.
+pub const MAX_SHARDS: u64 = 100_000;
 
-/// What a campaign draws and asks: with the mission, all that its results depend on.
+/// The settings of a campaign: with the mission, all that its results depend on.
 ///
 /// ```
 /// use cotama_sim::campaign::run::Settings;
@@ -40,17 +44,17 @@ pub struct Settings {
     pub rates: Rates,
     /// The fewest and the most faults of a plan, at most [`MAX_FAULTS`].
     pub faults: (u64, u64),
-    /// What must hold.
-    pub requirements: Vec<Requirement>,
+    /// Requirements of every run.
+    pub requirements: Requirements,
 }
 
 impl Settings {
     /// A thousand runs of uniformly drawn plans with one to three faults.
     pub fn new(supervised: bool) -> Self {
         let requirements = if supervised {
-            vec![Requirement::InTime, Requirement::Brakes, Requirement::StandsWhenSafe]
+            [Requirement::InTime, Requirement::Brakes, Requirement::StandsWhenSafe].into()
         } else {
-            vec![Requirement::NotFailed]
+            [Requirement::NotFailed].into()
         };
         Self {
             runs: 1_000,
@@ -73,7 +77,7 @@ impl Settings {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
-    /// Its number, from 1.
+    /// Number of the shard, from 1.
     pub index: u64,
     /// How many shards there are.
     pub of: u64,
@@ -91,7 +95,7 @@ impl Shard {
     }
 }
 
-/// What one run leaves: a line of the results.
+/// The result of one run: a line of the results.
 ///
 /// ```
 /// use cotama_sim::campaign::run::Line;
@@ -105,14 +109,14 @@ impl Shard {
 pub struct Line {
     /// The number of the run, from 0.
     pub run: u64,
-    /// What was observed; what is not serialised of it is empty when a line was read.
+    /// The observations; those that are not serialised are empty when a line was read.
     #[serde(flatten)]
     pub observed: Observed,
-    /// What went wrong; under supervisors with the place of the local one then, as
+    /// Faults of the run; under supervisors with the state of the local one then, as
     /// `SON2@Following`.
     pub faults: Vec<String>,
     /// The requirements that did not hold.
-    pub violated: Vec<String>,
+    pub violated: Requirements,
     /// The plan as a `panorama-faults/1` file, where one did not hold.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<String>,
@@ -126,18 +130,18 @@ pub struct Line {
 /// use cotama_sim::campaign::subject::{Policy, Subject};
 /// let patrol = embedded::mission("patrol").unwrap();
 /// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
-/// let requirements = vec!["completed".parse().unwrap()];
+/// let requirements = ["completed".parse().unwrap()].into();
 /// let settings = Settings { requirements, ..Settings::new(false) };
 /// let subject = Subject::new(&mission, Policy::default()).unwrap();
 /// let campaign = Campaign::new(subject, settings).unwrap();
 /// let failing = campaign.block(0).iter().filter(|it| !it.violated.is_empty()).count();
-/// assert_eq!((campaign.block(0).len(), failing), (1_000, 357));
+/// assert_eq!((campaign.block(0).len(), failing), (1_000, 352));
 /// ```
 #[derive(Debug)]
 pub struct Campaign<'m> {
-    /// What is run.
+    /// The subject of the runs.
     pub subject: Subject<'m>,
-    /// What is drawn and asked.
+    /// The settings.
     pub settings: Settings,
     space: Space,
     strategy: Box<dyn Strategy>,
@@ -169,7 +173,7 @@ impl<'m> Campaign<'m> {
     /// ```
     pub fn new(subject: Subject<'m>, settings: Settings) -> Result<Self, Unready> {
         let (least, most) = settings.faults;
-        let space = Space::of(subject.mission(), settings.rates, least..=most);
+        let space = subject.space(settings.rates, least..=most);
         Self::within(subject, settings, space)
     }
 
@@ -184,9 +188,21 @@ impl<'m> Campaign<'m> {
         Ok(Self { subject, settings: Settings { runs, ..settings }, space, strategy })
     }
 
-    /// Whether the share of failures estimates a probability.
-    pub fn estimates(&self) -> bool {
-        self.strategy.estimates()
+    /// Returns the sampling of so many of its runs; `tested` after a test that could have stopped
+    /// it as soon as it was decided.
+    pub fn sampling(&self, runs: u64, tested: bool) -> Sampling {
+        let every = self.plans().is_some_and(|it| it == runs);
+        match (self.strategy.estimates(), tested) {
+            (true, false) => Sampling::Fixed,
+            (true, true) => Sampling::Stopped,
+            (false, _) if every => Sampling::Every,
+            (false, _) => Sampling::Chosen,
+        }
+    }
+
+    /// How many different plans there are, if the strategy counts them.
+    pub fn plans(&self) -> Option<u64> {
+        self.strategy.total(&self.space)
     }
 
     /// The runs of a block, in their order.
@@ -211,14 +227,13 @@ impl<'m> Campaign<'m> {
 
     fn line(&self, run: u64, plan: &Plan, observed: Observed) -> Line {
         let broken = self.settings.requirements.iter().filter(|it| !it.holds(plan, &observed));
-        let violated: Vec<_> = broken.map(ToString::to_string).collect();
-        let mission = self.subject.mission();
+        let violated: Requirements = broken.cloned().collect();
         let faults = if self.subject.is_supervised() {
             let met = observed.met.iter();
             met.map(|(mode, state)| format!("{}@{}", mode.name(), state_name(*state))).collect()
         } else {
             let one = |it: &super::plan::Fault| {
-                Plan { faults: vec![it.clone()] }.named_signature(mission)
+                self.subject.signature(&Plan { faults: vec![it.clone()] })
             };
             plan.faults.iter().map(one).collect()
         };
@@ -226,7 +241,7 @@ impl<'m> Campaign<'m> {
             run,
             observed,
             faults,
-            plan: (!violated.is_empty()).then(|| plan.to_toml(mission)),
+            plan: (!violated.is_empty()).then(|| self.subject.stored(plan)),
             violated,
         }
     }

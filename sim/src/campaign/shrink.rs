@@ -11,6 +11,7 @@ use super::subject::Subject;
 use crate::supervised::When;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::faults::EventKind;
+use cotama_models::team::scenario::{self, FaultTime};
 
 /// The most runs that one plan is shrunk with.
 pub const MAX_RUNS: u64 = 2_000;
@@ -46,7 +47,9 @@ pub struct Shrunk {
 /// assert_eq!((shrunk.plan.faults, shrunk.minimal), (vec![only], true));
 /// ```
 pub fn shrink(subject: &Subject<'_>, requirement: &Requirement, plan: &Plan) -> Shrunk {
-    shrink_by(plan, &mut |it| !requirement.holds(it, &subject.run(it)))
+    // A place that was rounded up may lie behind the path, where nothing happens.
+    let end = subject.path_length();
+    shrink_by(plan, &mut |it| it.is_within(end) && !requirement.holds(it, &subject.run(it)))
 }
 
 /// Makes a plan small that fails by a judgement of the caller's, a function of the plan.
@@ -192,6 +195,14 @@ fn simpler(fault: &Fault, number: usize) -> Vec<Fault> {
                 Fault::Power(cotama_models::missions::faults::PowerError { permille, ..*it })
             };
             round(size, 1).into_iter().map(with).collect()
+        }
+        (Fault::Team(it), 2) => {
+            let with = |when| Fault::Team(scenario::Fault { when, ..*it });
+            let moments = match it.when {
+                FaultTime::At(at) => round(at, 0).into_iter().map(FaultTime::At).collect(),
+                FaultTime::During { .. } => Vec::new(),
+            };
+            moments.into_iter().map(with).collect()
         }
         _ => Vec::new(),
     }

@@ -1,14 +1,17 @@
-//! What can go wrong in a mission, how likely it is, and when: what every strategy draws from.
+//! The possible faults of a mission, their weights and moments: the space that every strategy draws
+//! from.
 
 use super::plan::{Fault, Plan, at, place};
+use crate::fleet;
 use crate::streams::Stream;
 use crate::supervised::{Answers, PERIOD, Script, Supervised, When};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{FailureMode, Module, local};
 use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Answer, Event, EventKind, Moment, PowerError};
+use cotama_models::team::scenario::{self, FaultKind, FaultTime, Scenario};
 
-/// What can go wrong in a mission.
+/// The possible faults of a mission.
 ///
 /// ```
 /// use cotama_models::cotama::FailureMode;
@@ -21,18 +24,20 @@ use cotama_models::missions::faults::{Answer, Event, EventKind, Moment, PowerErr
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Space {
-    /// What can go wrong, each with its weight.
+    /// The kinds of faults, each with its weight.
     pub kinds: Vec<Weighted>,
     /// The fewest faults of a plan.
     pub least: u64,
     /// The most faults of a plan.
     pub most: u64,
-    /// Where the path ends, in mm.
+    /// End of the path, in mm.
     pub path_mm: u64,
     /// Times are drawn below this, in ms.
     pub time_ms: u64,
     /// Whether supervisors decide: then a moment can be a time, or a place of the local one.
     pub supervised: bool,
+    /// Whether a moment is a time, and nothing else: of a team.
+    pub timed: bool,
     /// When supervisors act if nothing fails, in ms, each once, in order.
     pub acts_ms: Vec<u64>,
 }
@@ -53,7 +58,7 @@ pub struct Space {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Weighted {
-    /// What.
+    /// The kind of fault.
     pub kind: Kind,
     /// How likely it is drawn, among the weights of all.
     pub weight: u64,
@@ -72,13 +77,25 @@ pub enum Kind {
     Hardware {
         /// The index of the hardware.
         hardware: usize,
-        /// How many.
+        /// Number of units.
         units: u8,
     },
     /// Power in a zone, from −10 % to +30 % of the modelled one (assumed).
     Power {
         /// The index of the zone.
         zone: usize,
+    },
+    /// A row of the FMECA, on a robot of a team.
+    Robot {
+        /// The index of the robot.
+        robot: usize,
+        /// The row.
+        mode: FailureMode,
+    },
+    /// The object of a team's task moves under the hand.
+    Shifted {
+        /// The index of the task.
+        task: usize,
     },
 }
 
@@ -106,7 +123,15 @@ pub enum Rates {
 }
 
 impl Rates {
-    /// Its name: `even`, `fmeca`.
+    /// Returns the weight of a row of the FMECA.
+    fn weight(self, mode: FailureMode) -> u64 {
+        match self {
+            Self::Even => 1,
+            Self::Fmeca => (LONGEST_MTBF_MH / u64::from(mode.description().mtbf_mh).max(1)).max(1),
+        }
+    }
+
+    /// Returns the name: `even`, `fmeca`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Even => "even",
@@ -123,7 +148,7 @@ const STATES: [local::State; 5] = [
     local::State::Teleprogrammed,
     local::State::Teleoperated,
 ];
-/// What the operator may say, first what he may say to a request.
+/// Answers of the operator, those to a request first.
 const ANSWERS: [Answer; 6] = [
     Answer::Teleoperate,
     Answer::Teleprogram,
@@ -137,16 +162,13 @@ const TO_A_REQUEST: u64 = 3;
 const LONGEST_MTBF_MH: u64 = 10_000_000_000;
 
 impl Space {
-    /// What can go wrong in this mission: under supervisors every row of the FMECA, else obstacles,
+    /// Returns the space of this mission: under supervisors every row of the FMECA, else obstacles,
     /// wrong odometry, lost hardware, and power that differs by zone.
     pub fn of(mission: &Mission, rates: Rates, faults: std::ops::RangeInclusive<u64>) -> Self {
         let supervised = mission.supervisor().is_some();
-        let weight = |mode: FailureMode| match rates {
-            Rates::Even => 1,
-            Rates::Fmeca => (LONGEST_MTBF_MH / u64::from(mode.description().mtbf_mh).max(1)).max(1),
-        };
         let kinds = if supervised {
-            let one = |it: &FailureMode| Weighted { kind: Kind::Failure(*it), weight: weight(*it) };
+            let one =
+                |it: &FailureMode| Weighted { kind: Kind::Failure(*it), weight: rates.weight(*it) };
             FailureMode::ALL.iter().map(one).collect()
         } else {
             let hardware = mission.hardware.iter().enumerate().flat_map(|(hardware, it)| {
@@ -162,7 +184,40 @@ impl Space {
         acts_ms.dedup();
         let (path_mm, limit) = (mission.path_length.0, mission.limits[0]);
         let (least, most) = (*faults.start(), (*faults.end()).max(*faults.start()));
-        Self { kinds, least, most, path_mm, time_ms: (limit / 2).max(1), supervised, acts_ms }
+        let time_ms = (limit / 2).max(1);
+        Self { kinds, least, most, path_mm, time_ms, supervised, timed: false, acts_ms }
+    }
+
+    /// Returns the space of this team: every row of the FMECA on every robot, and objects that are
+    /// shifted, at any time of a run in which nothing fails.
+    ///
+    /// ```
+    /// use cotama_models::cotama::FailureMode;
+    /// use cotama_models::team::scenario::service;
+    /// use cotama_sim::campaign::space::{Rates, Space};
+    /// let space = Space::of_team(&service().unwrap(), Rates::Even, 1..=2);
+    /// assert_eq!(space.kinds.len(), 4 * FailureMode::ALL.len() + 2);
+    /// ```
+    pub fn of_team(team: &Scenario, rates: Rates, faults: std::ops::RangeInclusive<u64>) -> Self {
+        let undisturbed = fleet::run(&Scenario { faults: Vec::new(), ..team.clone() });
+        let rows = (0..team.robots.len())
+            .flat_map(|robot| FailureMode::ALL.iter().map(move |&mode| (robot, mode)));
+        let rows = rows.map(|(robot, mode)| Weighted {
+            kind: Kind::Robot { robot, mode },
+            weight: rates.weight(mode),
+        });
+        let objects =
+            (0..team.tasks.len()).map(|task| Weighted { kind: Kind::Shifted { task }, weight: 1 });
+        Self {
+            kinds: rows.chain(objects).collect(),
+            least: *faults.start(),
+            most: (*faults.end()).max(*faults.start()),
+            path_mm: 0,
+            time_ms: undisturbed.end_ms.max(1),
+            supervised: false,
+            timed: true,
+            acts_ms: Vec::new(),
+        }
     }
 
     /// Draws a plan of these kinds.
@@ -206,6 +261,8 @@ impl Space {
                 let permille = i32::try_from(stream.below(401)).unwrap_or(0) - 100;
                 Fault::Power(PowerError { zone, permille })
             }
+            Kind::Robot { robot, mode } => of_team(when, FaultKind::Robot(robot, mode)),
+            Kind::Shifted { task } => of_team(when, FaultKind::Shifted(task)),
         }
     }
 
@@ -217,6 +274,9 @@ impl Space {
     /// Draws a moment: a place of the path, and under supervisors as often a time, or a place of
     /// the local supervisor.
     pub fn moment(&self, stream: &mut Stream) -> When {
+        if self.timed {
+            return at(stream.below(self.time_ms));
+        }
         if !self.supervised {
             return place(stream.below(self.path_mm + 1));
         }
@@ -235,7 +295,7 @@ impl Space {
     pub fn race(&self, mode: FailureMode, stream: &mut Stream) -> Option<When> {
         let count = self.acts_ms.len() as u64;
         let act = *self.acts_ms.get(stream.below(count.max(1)) as usize)?;
-        // It is seen in the last period of its latency.
+        // The failure is seen in the last period of its latency.
         let latency = u64::from(mode.rule().latency_ms).saturating_sub(PERIOD.0);
         Some(at(act.saturating_sub(latency + PERIOD.0 * stream.below(4))))
     }
@@ -266,9 +326,19 @@ impl Space {
     /// The moments of an abstract timeline: four places of the path, and under supervisors half a
     /// second after each place of the local one is first reached.
     pub fn timeline(&self) -> Vec<When> {
-        let places = [5, 30, 55, 80].map(|percent| place(self.path_mm * percent / 100));
+        let shares = [5, 30, 55, 80];
+        if self.timed {
+            return shares.map(|percent| at(self.time_ms * percent / 100)).to_vec();
+        }
+        let places = shares.map(|percent| place(self.path_mm * percent / 100));
         let states = STATES.map(|state| When::During(state, Millis(500)));
         let states = states.into_iter().filter(|_| self.supervised);
         places.into_iter().chain(states).collect()
     }
+}
+
+/// A fault of a team at a time.
+fn of_team(when: When, what: FaultKind) -> Fault {
+    let at = if let When::At(it) = when { it.0 } else { 0 };
+    Fault::Team(scenario::Fault { when: FaultTime::At(at), what })
 }

@@ -1,19 +1,23 @@
-//! What a campaign runs: a mission with everything ready, and what is observed of one run.
+//! The subject of a campaign: a mission or a team with everything ready, and the observations of
+//! one run.
 
 use super::observed::{Observed, feature};
-use super::plan::Plan;
+use super::plan::{Fault, Plan};
 use super::requirement::Requirement;
-use crate::options::{FaultChoice, Options, Planner};
+use super::space::{Rates, Space};
+use crate::fleet;
+use crate::options::{FaultChoice, Options, Planner, upward};
 use crate::run::NoPlan;
 use crate::setup::{SetupError, Simulation};
 use crate::supervised::{Monitor, Script, Supervised, Unmonitored, Unsupervised};
-use cotama_core::monitor::Upward;
-use cotama_core::units::Millis;
-use cotama_models::missions::Mission;
+use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::faults::Faults;
+use cotama_models::missions::{Definition, Mission};
+use cotama_models::team::scenario::{self, FaultKind, FaultTime, Scenario};
 use std::fmt;
+use std::ops::RangeInclusive;
 
-/// A mission made ready to be run many times with faults that are drawn.
+/// A mission or a team made ready to be run many times with faults that are drawn.
 ///
 /// ```
 /// use cotama_models::missions::{Mission, embedded};
@@ -25,17 +29,21 @@ use std::fmt;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Subject<'m> {
-    mission: &'m Mission,
+    name: String,
+    policy: Policy,
+    /// Name of the mission in the files of failures.
+    source: Option<String>,
     robot: Robot<'m>,
 }
 
 #[derive(Clone, Debug)]
 enum Robot<'m> {
-    Plain(Box<Simulation<'m>>),
-    Supervised(Box<Supervised<'m>>, Watched),
+    Plain(&'m Mission, Box<Simulation<'m>>),
+    Supervised(&'m Mission, Box<Supervised<'m>>, Watched),
+    Team(Box<Scenario>, Option<fleet::Planted>),
 }
 
-/// What is looked at while a run goes on, and after.
+/// The monitors that watch while a run goes on, and after.
 #[derive(Clone, Debug, Default)]
 struct Watched {
     monitors: Vec<Monitor>,
@@ -46,7 +54,7 @@ struct Watched {
 /// For how long a robot that is safe is watched: whether it moves again.
 pub const AFTER: Millis = Millis(60_000);
 
-/// Who plans.
+/// The planner of the runs.
 ///
 /// ```
 /// use cotama_models::missions::{Mission, embedded};
@@ -62,8 +70,7 @@ pub const AFTER: Millis = Millis(60_000);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Policy {
-    /// The allocator; that of the kind of mission if none: the rule of PANORAMA, and under
-    /// supervisors [`PLANNER`](crate::supervised::PLANNER).
+    /// The planner; [that of the mission](Planner::of) if `None`, as in every command.
     pub planner: Option<Planner>,
     /// Whether better plans are looked for when margins have grown: without supervisors only.
     pub upward: bool,
@@ -71,15 +78,52 @@ pub struct Policy {
     pub rigid: bool,
 }
 
+impl Policy {
+    /// Returns the planner of this mission.
+    pub fn of(self, mission: &Definition) -> Planner {
+        self.planner.unwrap_or_else(|| Planner::of(mission))
+    }
+
+    /// Returns the name: `usual`, `upward` or `rigid`.
+    pub const fn name(self) -> &'static str {
+        match (self.rigid, self.upward) {
+            (true, _) => "rigid",
+            (false, true) => "upward",
+            (false, false) => "usual",
+        }
+    }
+
+    /// Returns the planner and the adaptation of a mission, in words.
+    pub fn words(self, mission: &Definition) -> String {
+        let planner = self.of(mission).words();
+        match (self.rigid, self.upward) {
+            (true, _) => format!("{planner}; the plan of the start is kept"),
+            (false, true) => format!("{planner}; better plans when margins have grown"),
+            (false, false) => planner,
+        }
+    }
+
+    /// How a mission is run by it.
+    pub fn options(self, mission: &Definition, faults: FaultChoice) -> Options {
+        Options {
+            faults,
+            planner: Some(self.of(mission)),
+            rigid: self.rigid,
+            upward: self.upward.then(|| upward(mission.limits)),
+            ..Options::default()
+        }
+    }
+}
+
 /// Why a mission cannot be the subject of a campaign.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unready {
-    /// It cannot be set up.
+    /// The mission cannot be set up.
     Setup(SetupError),
-    /// Its supervisors cannot be made.
+    /// The supervisors cannot be made.
     Unsupervised(Unsupervised),
-    /// It has no plan, even if nothing fails.
-    NoPlan(NoPlan),
+    /// The mission has no plan, even if nothing fails: the reason, and the same in words.
+    NoPlan(NoPlan, String),
     /// The policy is for missions without supervisors.
     Policy,
     /// A requirement is no property that can be watched: its text, and why.
@@ -95,7 +139,11 @@ impl fmt::Display for Unready {
         match self {
             Self::Setup(error) => error.fmt(f),
             Self::Unsupervised(error) => error.fmt(f),
-            Self::NoPlan(_) => f.write_str("there is no plan even if nothing fails"),
+            Self::NoPlan(_, why) => write!(
+                f,
+                "there is no plan even if nothing fails: {why}\n  help: `cotama plan MISSION` says \
+                 what weighs most, and what would help"
+            ),
             Self::Policy => {
                 f.write_str("upward and rigid policies are for missions without supervisors")
             }
@@ -120,41 +168,62 @@ impl<'m> Subject<'m> {
     /// # Errors
     /// An [`Unready`] for a mission that cannot be run, or not by this policy.
     pub fn new(mission: &'m Mission, policy: Policy) -> Result<Self, Unready> {
+        let no_plan = |why: NoPlan| Unready::NoPlan(why, why.text(mission));
         let robot = if mission.supervisor().is_some() {
             if policy.upward || policy.rigid {
                 return Err(Unready::Policy);
             }
             let supervised = Supervised::new(mission).map_err(Unready::Unsupervised)?;
-            let supervised = match policy.planner {
-                Some(planner) => supervised.with_planner(planner),
-                None => supervised,
-            };
-            supervised.run(&Script::default()).map_err(Unready::NoPlan)?;
-            Robot::Supervised(Box::new(supervised), Watched::default())
+            let supervised = supervised.with_planner(policy.of(mission));
+            supervised.run(&Script::default()).map_err(no_plan)?;
+            Robot::Supervised(mission, Box::new(supervised), Watched::default())
         } else {
-            let limits = mission.limits;
-            let upward = Upward {
-                growth: limits.map(|limit| (limit / 100).max(1)),
-                reserve: limits.map(|limit| limit / 200),
-            };
-            let options = Options {
-                faults: FaultChoice::None,
-                planner: policy.planner.unwrap_or_default(),
-                upward: policy.upward.then_some(upward),
-                ..Options::default()
-            };
+            let options = policy.options(mission, FaultChoice::None);
             let simulation = Simulation::new(mission, &options).map_err(Unready::Setup)?;
-            simulation.run(0).map_err(Unready::NoPlan)?;
-            let simulation =
-                if policy.rigid { simulation.without_adaptation() } else { simulation };
-            Robot::Plain(Box::new(simulation))
+            simulation.run(0).map_err(no_plan)?;
+            Robot::Plain(mission, Box::new(simulation))
         };
-        Ok(Self { mission, robot })
+        let policy = Policy { planner: Some(policy.of(mission)), ..policy };
+        Ok(Self { name: mission.name.clone(), policy, source: None, robot })
+    }
+
+    /// The same, with the name of an embedded mission, or the path of a file, by which the files of
+    /// its failures name it.
+    #[must_use]
+    pub fn named(self, source: &str) -> Self {
+        Self { source: Some(source.to_owned()), ..self }
+    }
+
+    /// Returns the policy: planner and adaptation.
+    pub const fn policy(&self) -> Policy {
+        self.policy
+    }
+
+    /// Returns the name of the mission in the files of its failures.
+    pub fn source(&self) -> Option<&str> {
+        self.source.as_deref()
     }
 
     /// A supervised mission whose supervisors or planner were chosen by the caller.
     pub fn of(mission: &'m Mission, supervised: Supervised<'m>) -> Self {
-        Self { mission, robot: Robot::Supervised(Box::new(supervised), Watched::default()) }
+        let policy = Policy { planner: Some(supervised.planner()), ..Policy::default() };
+        let robot = Robot::Supervised(mission, Box::new(supervised), Watched::default());
+        Self { name: mission.name.clone(), policy, source: None, robot }
+    }
+
+    /// A team at work; its own faults are replaced by those of each plan. It is completed when all
+    /// tasks are done, failed when something does not hold that must hold of every run, and else
+    /// it ended with tasks that were reported.
+    ///
+    /// ```
+    /// use cotama_models::team::scenario::service;
+    /// use cotama_sim::campaign::{plan::Plan, subject::Subject};
+    /// let run = Subject::of_team(service().unwrap(), None).run(&Plan::default());
+    /// assert_eq!((run.outcome.name(), run.replans), ("completed", 0));
+    /// ```
+    pub fn of_team(team: Scenario, planted: Option<fleet::Planted>) -> Self {
+        let (name, policy) = (team.name.clone(), Policy::default());
+        Self { name, policy, source: None, robot: Robot::Team(Box::new(team), planted) }
     }
 
     /// The same, watched for these requirements: properties end the run that breaks them, and a
@@ -177,10 +246,14 @@ impl<'m> Subject<'m> {
     /// ```
     pub fn watching(self, requirements: &[Requirement]) -> Result<Self, Unready> {
         let about = |it: &&Requirement| it.needs_supervisors();
-        let (supervised, watched) = match (self.robot, requirements.iter().find(about)) {
-            (Robot::Plain(_), Some(it)) => return Err(Unready::Plain(it.to_string())),
-            (robot @ Robot::Plain(_), None) => return Ok(Self { robot, ..self }),
-            (Robot::Supervised(supervised, watched), _) => (supervised, watched),
+        let (mission, supervised) = match (self.robot, requirements.iter().find(about)) {
+            (Robot::Plain(..) | Robot::Team(..), Some(it)) => {
+                return Err(Unready::Plain(it.to_string()));
+            }
+            (robot @ (Robot::Plain(..) | Robot::Team(..)), None) => {
+                return Ok(Self { robot, ..self });
+            }
+            (Robot::Supervised(mission, supervised, _), _) => (mission, supervised),
         };
         let properties = requirements.iter().filter_map(|it| match it {
             Requirement::Always(text) => Some(text),
@@ -195,17 +268,126 @@ impl<'m> Subject<'m> {
         let supervised = match conforms.then(|| supervised.clone().compared()) {
             Some(None) => return Err(Unready::Shipped),
             Some(Some(compared)) => compared,
-            None => supervised,
+            None => supervised.uncompared(),
         };
         let stands = requirements.contains(&Requirement::StandsWhenSafe);
-        let after = if stands { AFTER } else { watched.after };
-        let robot = Robot::Supervised(Box::new(supervised), Watched { monitors, after });
+        let after = if stands { AFTER } else { Millis(0) };
+        let watched = Watched { monitors, after };
+        let robot = Robot::Supervised(mission, Box::new(supervised), watched);
         Ok(Self { robot, ..self })
     }
 
-    /// The mission.
-    pub const fn mission(&self) -> &'m Mission {
-        self.mission
+    /// Returns the name of the mission or team.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Returns the mission; `None` of a team.
+    pub const fn mission(&self) -> Option<&'m Mission> {
+        match &self.robot {
+            Robot::Plain(mission, _) | Robot::Supervised(mission, ..) => Some(mission),
+            Robot::Team(..) => None,
+        }
+    }
+
+    /// Whether it is a team.
+    pub const fn is_team(&self) -> bool {
+        matches!(self.robot, Robot::Team(..))
+    }
+
+    /// Returns a requirement in words, as it is meant of this subject.
+    ///
+    /// ```
+    /// use cotama_models::team::scenario::service;
+    /// use cotama_sim::campaign::{requirement::Requirement, subject::Subject};
+    /// let team = Subject::of_team(service().unwrap(), None);
+    /// assert_eq!(team.meaning(&Requirement::Completed), "all tasks are done");
+    /// ```
+    pub fn meaning(&self, requirement: &Requirement) -> String {
+        match (self.is_team(), requirement) {
+            (true, Requirement::Completed) => "all tasks are done".into(),
+            (true, Requirement::NotFailed) => {
+                "each task is done once or reported, and none is worked for twice at once".into()
+            }
+            _ => requirement.words(),
+        }
+    }
+
+    /// Returns the length of the path; 0 of a team.
+    pub fn path_length(&self) -> Millimetres {
+        self.mission().map_or(Millimetres(0), |it| it.path_length)
+    }
+
+    /// Returns the space of possible faults.
+    pub fn space(&self, rates: Rates, faults: RangeInclusive<u64>) -> Space {
+        match &self.robot {
+            Robot::Plain(mission, _) | Robot::Supervised(mission, ..) => {
+                Space::of(mission, rates, faults)
+            }
+            Robot::Team(team, _) => Space::of_team(team, rates, faults),
+        }
+    }
+
+    /// Returns the planner in words; of a team the allocation of its tasks.
+    pub fn words(&self) -> String {
+        match &self.robot {
+            Robot::Plain(mission, _) | Robot::Supervised(mission, ..) => self.policy.words(mission),
+            Robot::Team(team, _) => format!("allocation {}", team.method.name()),
+        }
+    }
+
+    /// Writes the faults of a plan as the text of a file, a line each.
+    pub fn text(&self, plan: &Plan) -> String {
+        match &self.robot {
+            Robot::Plain(mission, _) | Robot::Supervised(mission, ..) => plan.compact(mission),
+            Robot::Team(team, _) => team.faults_to_toml(&plan.of_team()),
+        }
+    }
+
+    /// Writes the faults of a plan as results store them.
+    pub(super) fn stored(&self, plan: &Plan) -> String {
+        self.mission().map_or_else(|| self.text(plan), |it| plan.to_toml(it))
+    }
+
+    /// Reads a plan from the text of its faults; `None` for another text.
+    pub fn plan(&self, text: &str) -> Option<Plan> {
+        match &self.robot {
+            Robot::Plain(mission, _) | Robot::Supervised(mission, ..) => {
+                Some(Plan::from(&Faults::parse("a result", text, mission).ok()?))
+            }
+            Robot::Team(team, _) => {
+                let read = team.faults_of("a result", text).ok()?;
+                Some(Plan { faults: read.faults.into_iter().map(Fault::Team).collect() })
+            }
+        }
+    }
+
+    /// Returns a fault of a team in words.
+    pub(super) fn story_of(&self, fault: &scenario::Fault) -> String {
+        let Robot::Team(team, _) = &self.robot else { return String::new() };
+        let robot = |it: usize| team.robots.get(it).map_or("?", |it| it.name.as_str());
+        let task = |it: usize| team.tasks.get(it).map_or("?", |it| it.name.as_str());
+        let when = match fault.when {
+            FaultTime::At(at) => format!("at {}.{:03} s", at / 1_000, at % 1_000),
+            FaultTime::During { robot: it, task: of, stage, after_ms, .. } => format!(
+                "{after_ms} ms after {} came to `{}` of {}",
+                robot(it),
+                stage.name(),
+                task(of)
+            ),
+        };
+        match fault.what {
+            FaultKind::Robot(it, mode) => {
+                format!("{when}, {} fails: {}", robot(it), fleet::trace::Trace::words(mode))
+            }
+            FaultKind::Shifted(it) => format!("{when}, the object of {} is shifted", task(it)),
+            FaultKind::Turned(it, _) => format!("{when}, the object of {} is turned", task(it)),
+        }
+    }
+
+    /// Returns the signature of a plan, with the names of the mission.
+    pub fn signature(&self, plan: &Plan) -> String {
+        self.mission().map_or_else(|| plan.signature(), |it| plan.named_signature(it))
     }
 
     /// Whether supervisors decide.
@@ -216,8 +398,12 @@ impl<'m> Subject<'m> {
     /// One run; a function of the plan alone.
     pub fn run(&self, plan: &Plan) -> Observed {
         match &self.robot {
-            Robot::Plain(simulation) => plain(simulation, plan),
-            Robot::Supervised(it, watched) => {
+            Robot::Plain(_, simulation) => plain(simulation, plan),
+            Robot::Team(team, planted) => {
+                let team = Scenario { faults: plan.of_team(), ..(**team).clone() };
+                Observed::of_team(&fleet::run_with(&team, *planted))
+            }
+            Robot::Supervised(_, it, watched) => {
                 // There is a plan at the start: that does not depend on what fails later.
                 let run = it.run_and_watch(&Script::from(plan), watched.after);
                 run.map_or_else(

@@ -82,10 +82,11 @@ impl<'m> CampaignTest<'m> {
     ) -> Option<(u64, Plan, Observed)> {
         let space = Space::of(self.mission, Rates::Even, self.faults.0..=self.faults.1);
         let strategy = self.strategy.strategy(&space);
+        let runs = strategy.total(&space).map_or(self.runs, |it| it.min(self.runs));
         let mut first = 0;
-        while first < self.runs {
+        while first < runs {
             let mut draws = strategy.block(&space, self.seed, first);
-            for run in first..self.runs.min(first + BLOCK) {
+            for run in first..runs.min(first + BLOCK) {
                 let plan = draws.next();
                 let observed = subject.run(&plan);
                 if !holds(&plan, &observed) {
@@ -151,7 +152,7 @@ impl<'m> CampaignTest<'m> {
     }
 
     fn fail(&self, name: &str, (run, plan, observed): (u64, Plan, Observed)) -> ! {
-        let text = super::findings::compact(&plan, self.mission);
+        let text = plan.compact(self.mission);
         let (outcome, strategy, seed) = (observed.outcome.name(), self.strategy.name(), self.seed);
         let witness = observed.witness.map_or_else(String::new, |it| {
             format!("# broken after {} ms; last there was {}\n", it.at_ms, it.seen.join(", "))

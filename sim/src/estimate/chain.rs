@@ -11,9 +11,9 @@ use super::tally::{Overflow, Tally, Witness};
 use super::walk::Walk;
 use crate::streams::{Stream, split_mix};
 use cotama_core::net::{PlaceId, TransitionId};
-use cotama_verification::pt::Pt;
+use cotama_property::pt::Pt;
 
-/// What may be remembered.
+/// Budget of the memory of markings, in bytes.
 const BYTES: usize = 64 << 20;
 
 /// Nowhere yet.
@@ -33,7 +33,7 @@ struct Edge {
     to: u32,
 }
 
-/// Where a run comes to.
+/// The position of a run.
 #[derive(Clone, Copy)]
 enum At {
     /// A marking that is remembered.
@@ -46,14 +46,14 @@ pub(super) struct Chain<'n> {
     net: &'n Pt,
     asked: &'n [Asked<'n>],
     bytes: usize,
-    /// What a token in each place adds to the hash of a marking.
+    /// Summand of a token in each place in the hash of a marking.
     weights: Vec<u64>,
     /// One marking after the other; that of the start is the first.
     markings: Vec<u32>,
     hashes: Vec<u64>,
-    /// What each marking decides of each question.
+    /// Judgement of each marking on each question.
     judged: Vec<Judged>,
-    /// Where the edges of each marking begin, and at last their number.
+    /// Start of the edges of each marking, and at last their number.
     first: Vec<u32>,
     edges: Vec<Edge>,
     /// Markings by their hash; a power of two of them.
@@ -137,7 +137,7 @@ impl<'n> Chain<'n> {
         Ok(steps)
     }
 
-    /// What a run fires, until it has so many steps.
+    /// Returns the firings of a run, until it has so many steps.
     pub(super) fn fired(&mut self, mut run: Run) -> Vec<TransitionId> {
         let (mut at, mut fired) = (At::Known(0), Vec::new());
         while (fired.len() as u64) < run.most
@@ -149,7 +149,7 @@ impl<'n> Chain<'n> {
         fired
     }
 
-    /// What the marking decides of a question.
+    /// Returns the judgement of the marking on a question.
     #[inline]
     fn judged(&self, at: At, question: usize) -> Judged {
         match at {
@@ -182,7 +182,7 @@ impl<'n> Chain<'n> {
         Some(to.map(|to| (transition, to)))
     }
 
-    /// Where an edge leads that was never gone, or the place that would overflow.
+    /// Returns the target of an edge that was never taken, or the place that would overflow.
     fn lead(&mut self, at: u32, chosen: usize) -> Result<At, u32> {
         let places = self.net.places.len();
         let from = at as usize * places;
@@ -203,8 +203,8 @@ impl<'n> Chain<'n> {
             self.walk.begin(&self.marking);
             return Ok(At::Beyond);
         }
-        // What is enabled changes only where a place of the effects comes to or falls below what a
-        // transition needs of it.
+        // The enabled transitions change only where a place of the effects comes to or falls below
+        // the need of a transition.
         self.enabled.fill(0);
         for edge in self.first[at as usize]..self.first[at as usize + 1] {
             let it = self.edges[edge as usize].transition;
@@ -293,11 +293,11 @@ mod tests {
     use super::*;
     use crate::streams::Streams;
     use cotama_models::nets::families::philosophers;
-    use cotama_verification::property::parse;
+    use cotama_property::parse;
 
     /// Little memory is as good as much, if slower.
     #[test]
-    fn what_is_not_remembered_is_walked() {
+    fn markings_beyond_the_memory_are_walked() {
         let net = Pt::from(&philosophers(4).unwrap().view().net());
         let question = parse("EF deadlock", &net).unwrap().question;
         let asked = [Asked::new(question.formula().unwrap(), &net).unwrap()];

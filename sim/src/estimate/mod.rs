@@ -8,7 +8,7 @@
 //! ```
 //! use cotama_models::nets::families::philosophers;
 //! use cotama_sim::estimate::{Asked, Draw, draw};
-//! use cotama_verification::{property, pt::Pt};
+//! use cotama_property::{self as property, pt::Pt};
 //!
 //! let net = Pt::from(&philosophers(2).unwrap().view().net());
 //! let starve = property::parse("EF deadlock", &net).unwrap().question;
@@ -30,13 +30,13 @@ pub use tally::{Drawn, Overflow, Tally, Witness};
 use crate::streams::Streams;
 use chain::{Chain, Run};
 use cotama_core::net::TransitionId;
-use cotama_verification::pt::Pt;
+use cotama_property::pt::Pt;
 use std::ops::Range;
 
 /// Which runs are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Draw {
-    /// How many runs.
+    /// Number of runs.
     pub runs: u64,
     /// The most transitions that a run fires.
     pub steps: u64,
@@ -78,7 +78,7 @@ pub fn draw(net: &Pt, asked: &[Asked<'_>], all: Draw) -> Result<Drawn, Overflow>
 /// ```
 /// use cotama_models::nets::door;
 /// use cotama_sim::estimate::{Witness, replay};
-/// use cotama_verification::pt::Pt;
+/// use cotama_property::pt::Pt;
 /// let net = Pt::from(&door::NET);
 /// let fired = replay(&net, 7, Witness { run: 3, steps: 5 });
 /// assert_eq!(fired.len(), 5);

@@ -1,7 +1,7 @@
-//! What is asked of a run, and how its markings decide it.
+//! The questions to a run, and the decisions of its markings.
 
-use cotama_verification::property::{Atom, Condition, Formula};
-use cotama_verification::pt::Pt;
+use cotama_property::pt::Pt;
+use cotama_property::{Atom, Condition, Formula};
 use std::fmt;
 
 /// A question to a run: a formula with one temporal operator behind a quantifier, made to be asked
@@ -12,23 +12,23 @@ pub struct Asked<'n> {
     path: Path<'n>,
 }
 
-/// What one run can show of a property.
+/// The kind of evidence that one run can be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wants {
-    /// It speaks of all runs: one that breaks it refutes it.
+    /// The property speaks of all runs: one that breaks it refutes it.
     All,
-    /// It speaks of some run: one that holds it proves it.
+    /// The property speaks of some run: one that holds it proves it.
     Some,
 }
 
 /// Why a run cannot be asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotOfARun {
-    /// It is about the marking at the start alone.
+    /// The property is about the marking at the start alone.
     Start,
-    /// It speaks of milliseconds.
+    /// The property speaks of milliseconds.
     Time,
-    /// It has other operators than one of `G`, `F` and `U` behind one quantifier.
+    /// The property has other operators than one of `G`, `F` and `U` behind one quantifier.
     Nested,
 }
 
@@ -59,7 +59,7 @@ struct State<'n> {
     dead: Condition<'n>,
 }
 
-/// What a run has shown so far.
+/// The judgement of a run so far.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Judged {
     Open,
@@ -83,7 +83,7 @@ impl<'n> Asked<'n> {
         Self::of(formula, false, net).ok_or(NotOfARun::Nested)
     }
 
-    /// What one run can show.
+    /// Returns the kind of evidence that one run can be.
     pub fn wants(&self) -> Wants {
         self.wants
     }
@@ -109,7 +109,7 @@ impl<'n> Asked<'n> {
         Some(Self { wants, path })
     }
 
-    /// What a marking that a run comes to decides; `Open` when the run must go on.
+    /// Returns the judgement of the next marking; `Open` when the run must go on.
     #[inline]
     pub(super) fn sees(&self, marking: &[u32], is_dead: bool) -> Judged {
         let holds = |state: &State<'_>| {

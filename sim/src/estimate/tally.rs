@@ -1,10 +1,10 @@
-//! What is counted over runs.
+//! Counts over runs.
 
 use super::path::{Asked, Judged};
 use cotama_core::net::{PlaceId, TransitionId};
 use std::fmt;
 
-/// What came of many runs.
+/// The results of many runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Drawn {
     /// How many runs there were.
@@ -15,12 +15,12 @@ pub struct Drawn {
     pub tallies: Vec<Tally>,
 }
 
-/// What came of one question.
+/// The counts of one question.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
     /// How many runs were as the property says, within their steps.
     pub holding: u64,
-    /// Of how many runs that was not decided when their steps were used up.
+    /// Number of runs that were not decided when their steps were used up.
     pub open: u64,
     /// The shortest run that is surely as the property says; of several the first.
     pub shortest_holding: Option<Witness>,
@@ -31,9 +31,9 @@ pub struct Tally {
 /// A run, and how many steps of it decide a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Witness {
-    /// Its steps.
+    /// Number of steps.
     pub steps: u64,
-    /// Its number, from 0.
+    /// Number of the run, from 0.
     pub run: u64,
 }
 
@@ -42,7 +42,7 @@ pub struct Witness {
 pub struct Overflow {
     /// The number of the run.
     pub run: u64,
-    /// What fires.
+    /// The transition.
     pub transition: TransitionId,
     /// The place.
     pub place: PlaceId,

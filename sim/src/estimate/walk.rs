@@ -3,13 +3,13 @@
 use super::tally::Overflow;
 use crate::streams::Stream;
 use cotama_core::net::{PlaceId, TransitionId};
-use cotama_verification::pt::Pt;
+use cotama_property::pt::Pt;
 
-/// Where a run is among markings that are not remembered.
+/// A run among markings that are not remembered.
 pub(super) struct Walk<'n> {
     net: &'n Pt,
     marking: Vec<u32>,
-    /// Of each transition how many places lack what it needs of them.
+    /// For each transition, how many places lack its needs.
     lacking: Vec<u32>,
     /// A bit for each transition that lacks nothing, and how many there are.
     enabled: Vec<u64>,

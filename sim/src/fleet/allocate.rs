@@ -1,9 +1,12 @@
-//! Who does what: from bids to awards, by `cotama_core::team`.
+//! Allocation in a team: from bids to awards, by `cotama_core::team`.
 
-use super::task::{Formation, MAX_ROBOTS, Method, Offer, Scenario, Share, TaskSpec};
-use cotama_core::team::joint::{Column, Joint, JointMemory, Level, Open, Slot, Way};
-use cotama_core::team::thesis::{self, Shares, State};
+use crate::fleet::bid::{Offer, Share};
+use cotama_core::team::winners::Workspace;
 use cotama_core::team::{Cost, Costs, Memory, Plan, RobotSet, Task, Team, assign, coalition};
+use cotama_models::team::scenario::{
+    Formation, MAX_ROBOTS, Method, PlanSpec, Scenario, TaskSpec, common_denominator,
+};
+use cotama_models::team::thesis::{self, Shares, State};
 
 /// The most steps of one search for the least cost; what is found by then is taken.
 const STEPS: u64 = 20_000;
@@ -38,7 +41,7 @@ impl Tables {
             }
         }
         let sizes = specs().flat_map(|it| it.plans.iter().map(|it| it.roles.len() as u32));
-        let denominator = sizes.fold(1, least_common_multiple);
+        let denominator = common_denominator(sizes);
         Self { robots, entries, denominator }
     }
 
@@ -46,7 +49,7 @@ impl Tables {
     fn plans<'t>(&'t self, scenario: &Scenario, tasks: &[usize]) -> Vec<Vec<Plan<'t>>> {
         let of = |(entries, &task): (&'t Vec<Vec<Option<Cost>>>, &usize)| {
             let plans = entries.iter().zip(&scenario.tasks[task].plans);
-            let plan = |(entries, spec): (&'t Vec<Option<Cost>>, &super::task::PlanSpec)| {
+            let plan = |(entries, spec): (&'t Vec<Option<Cost>>, &PlanSpec)| {
                 let roles = Costs::new(entries, self.robots.len())?;
                 Some(Plan { roles, extra: spec.extra_ms })
             };
@@ -56,14 +59,6 @@ impl Tables {
     }
 }
 
-fn least_common_multiple(a: u32, b: u32) -> u32 {
-    let (mut x, mut y) = (a, b);
-    while y != 0 {
-        (x, y) = (y, x % y);
-    }
-    a / x.max(1) * b
-}
-
 /// Memory for what is solved again and again.
 #[derive(Debug, Default)]
 pub(super) struct Allocator {
@@ -71,16 +66,11 @@ pub(super) struct Allocator {
     amounts: Vec<i64>,
     entries: Vec<Option<Cost>>,
     states: Vec<State>,
-    roles: Vec<[i64; MAX_ROBOTS]>,
-    ways: Vec<Way>,
-    slots: Vec<Slot>,
-    columns: Vec<Column>,
-    open: Vec<Open>,
-    levels: Vec<Level<MAX_ROBOTS>>,
+    workspace: Workspace<MAX_ROBOTS>,
 }
 
 impl Allocator {
-    /// Who is to do which of these open tasks, from the bids of robots. `waited_ms` is for how long
+    /// Returns the awards of these open tasks, from the bids of robots. `waited_ms` is for how long
     /// each has been waiting: by so much more it costs to leave it undone for now.
     pub(super) fn choose(
         &mut self,
@@ -119,22 +109,7 @@ impl Allocator {
         let Ok(team) = Team::new(tables.robots.len(), tables.denominator, tasks) else {
             return Vec::new();
         };
-        let largest = tasks.iter().flat_map(|it| it.plans).map(|it| it.roles.rows()).max();
-        self.roles.resize(team.roles().max(self.roles.len()), [0; MAX_ROBOTS]);
-        self.ways.resize(team.plans().max(self.ways.len()), Way::EMPTY);
-        self.slots.resize(tasks.len().max(self.slots.len()), Slot::EMPTY);
-        self.columns.resize((64 * tasks.len()).max(self.columns.len()), Column::EMPTY);
-        let open = team.robots() * largest.unwrap_or(1);
-        self.open.resize(open.max(self.open.len()), Open::EMPTY);
-        self.levels.resize(MAX_ROBOTS + 1, Level::EMPTY);
-        let mut joint = Joint::<MAX_ROBOTS>::new(JointMemory {
-            roles: &mut self.roles,
-            ways: &mut self.ways,
-            slots: &mut self.slots,
-            columns: &mut self.columns,
-            open: &mut self.open,
-            levels: &mut self.levels,
-        });
+        let mut joint = self.workspace.winners(&team, 64 * tasks.len());
         if joint.solve(&team, STEPS).is_err() {
             return Vec::new();
         }
@@ -236,7 +211,7 @@ impl Allocator {
             .collect();
         let only = [Plan { roles: Costs::new(&table, columns.len())?, extra: 0 }];
         let only = Task { plans: &only, ..*task };
-        let denominator = (1..=roles.rows() as u32).fold(1, least_common_multiple);
+        let denominator = common_denominator(1..=roles.rows() as u32);
         let mut memory = self.memory(roles.rows(), columns.len())?;
         coalition(&only, denominator, &mut memory).ok()?;
         (0..roles.rows()).map(|row| columns.get(memory.column(row)?).copied()).collect()
@@ -352,7 +327,7 @@ fn share(
 
 /// The scale of costs where brokers bid: that of all plans of the task.
 pub(super) fn denominator(spec: &TaskSpec) -> u32 {
-    spec.plans.iter().map(|it| it.roles.len() as u32).fold(1, least_common_multiple)
+    common_denominator(spec.plans.iter().map(|it| it.roles.len() as u32))
 }
 
 /// Whether brokers can share the coalitions of this team.

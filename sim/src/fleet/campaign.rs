@@ -3,8 +3,7 @@
 
 use super::record::Fate;
 use super::run;
-use super::scenarios::{FleetOptions, fleet};
-use super::task::Method;
+use cotama_models::team::scenario::{Method, Scenario};
 use std::thread;
 
 /// A mean with the half width of its interval of 95 %, both rounded.
@@ -24,7 +23,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of some values; none of none.
+    /// Returns the spread of some values; `None` of none.
     pub fn of(values: &[i64]) -> Option<Self> {
         let count = i128::try_from(values.len()).ok().filter(|it| *it > 0)?;
         let sum: i128 = values.iter().map(|it| i128::from(*it)).sum();
@@ -43,7 +42,7 @@ impl Spread {
     }
 }
 
-/// What a method came to over all seeds.
+/// The results of a method over all seeds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Results {
     /// The method.
@@ -52,13 +51,13 @@ pub struct Results {
     pub cost_ms: Spread,
     /// From when a task became known until it was done, in ms a task.
     pub waited_ms: Spread,
-    /// Its cost less that of the optimal method with the same seed, in ms a run.
+    /// Cost less that of the optimal method with the same seed, in ms a run.
     pub more_ms: Spread,
     /// The same in thousandths of the optimal cost.
     pub more_permille: Spread,
     /// Tasks done, and tasks reported, over all runs.
     pub done: usize,
-    /// See `done`.
+    /// Tasks reported as not to be done, of all runs.
     pub reported: usize,
     /// Tasks that were put up again, over all runs.
     pub reopened: u64,
@@ -77,18 +76,24 @@ struct One {
     sound: bool,
 }
 
-/// Runs so many seeds from that of the options on, with each method, on so many threads; the number
-/// of threads changes nothing. The first method is what the others are compared with.
+/// Runs so many seeds from the first one on, with each method, on so many threads; the number of
+/// threads changes nothing. `scenario` makes what is run. The first method is what the others are
+/// compared with.
 ///
 /// ```
-/// use cotama_sim::fleet::{campaign::compare, scenarios::FleetOptions, task::Method};
-/// let options = FleetOptions { robots: 6, tasks: 8, failures: 1, ..FleetOptions::default() };
-/// let both = compare(&options, 2, &[Method::Optimal, Method::OneByOne], 2);
+/// use cotama_models::team::scenario::{Method, Scenario};
+/// use cotama_sim::fleet::{campaign::compare, scenarios::{FleetOptions, fleet}};
+/// let scenario = |seed, method| {
+///     let options = FleetOptions { robots: 6, tasks: 8, failures: 1, ..FleetOptions::default() };
+///     fleet(&FleetOptions { seed, method, ..options })
+/// };
+/// let both = compare(&scenario, 0, 2, &[Method::Optimal, Method::OneByOne], 2);
 /// assert_eq!(both.iter().map(|it| it.unsound).sum::<usize>(), 0);
 /// assert_eq!(both[0].more_ms.mean, 0);
 /// ```
 pub fn compare(
-    options: &FleetOptions,
+    scenario: &(impl Fn(u64, Method) -> Scenario + Sync),
+    first_seed: u64,
     seeds: u64,
     methods: &[Method],
     threads: usize,
@@ -96,7 +101,7 @@ pub fn compare(
     let mut first: Vec<One> = Vec::new();
     let mut all = Vec::new();
     for &method in methods {
-        let runs = runs(&FleetOptions { method, ..*options }, seeds, threads.max(1));
+        let runs = runs(&|seed| scenario(seed, method), first_seed, seeds, threads.max(1));
         if first.is_empty() {
             first.clone_from(&runs);
         }
@@ -105,15 +110,20 @@ pub fn compare(
     all
 }
 
-fn runs(options: &FleetOptions, seeds: u64, threads: usize) -> Vec<One> {
+fn runs(
+    scenario: &(impl Fn(u64) -> Scenario + Sync),
+    first: u64,
+    seeds: u64,
+    threads: usize,
+) -> Vec<One> {
     let mut runs = vec![One::default(); usize::try_from(seeds).unwrap_or(usize::MAX)];
     let part = runs.len().div_ceil(threads).max(1);
     thread::scope(|scope| {
         for (number, part_of) in runs.chunks_mut(part).enumerate() {
             scope.spawn(move || {
                 for (at, it) in part_of.iter_mut().enumerate() {
-                    let seed = options.seed.wrapping_add((number * part + at) as u64);
-                    *it = one(&FleetOptions { seed, ..*options });
+                    let seed = first.wrapping_add((number * part + at) as u64);
+                    *it = one(&scenario(seed));
                 }
             });
         }
@@ -121,8 +131,8 @@ fn runs(options: &FleetOptions, seeds: u64, threads: usize) -> Vec<One> {
     runs
 }
 
-fn one(options: &FleetOptions) -> One {
-    let run = run(&fleet(options));
+fn one(scenario: &Scenario) -> One {
+    let run = run(scenario);
     let done = run.count(Fate::Done);
     One {
         cost_ms: i64::try_from(run.cost_ms).unwrap_or(i64::MAX),

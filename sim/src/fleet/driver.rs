@@ -1,38 +1,29 @@
 //! A robot that COTAMA's decisional component drives through one task at a time.
 //!
-//! A task is a mission of the shipped supervisors: drive, receive, drive, deliver. Rounds lie on a
-//! grid of [`PERIOD`], as on the robot, but only those are taken in which something can happen: a
-//! level that was told all and has come to rest stays as it is until its surroundings change. So
-//! forty robots take some thousand rounds and not some hundred thousand; a test takes them all, and
-//! comes to the same.
+//! A task is a mission of the shipped supervisors: drive, receive, drive, deliver. The robot is
+//! that
+//! of a [mission](crate::body): it accelerates, draws energy, computes and fails alike. Rounds lie
+//! on a grid of [`PERIOD`], but only those are taken in which something can happen: a level that
+//! was told all and has come to rest stays as it is until its surroundings change. So forty robots
+//! take some thousand rounds and not some hundred thousand; a test takes them all, and comes to the
+//! same.
 
-use super::task::Stage;
-use crate::supervised::{Ends, Motion, PERIOD, PLANNING, effect, observable, raises};
-use cotama_core::units::Millis;
+use crate::body::{Chassis, DELIVERY, Demand, Failure, PERIOD, PLANNING, Robot, Watch};
+use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::{
-    Body, Configuration, DecisionalLevel, DeliveryDecider, FailureMode, Flags, Health, Module,
-    Modules, NoPlans, Perceived, Word, local,
+    Body, Configuration, DecisionalLevel, DeliveryDecider, FailureMode, Health, Module, NoPlans,
+    Word, local,
 };
+use cotama_models::team::scenario::Stage;
 
 /// After so many rounds without any change a level is at rest: a report takes three.
 const REST: u32 = 6;
 /// The objectives of the mission.
 const OBJECTIVES: u32 = 4;
+/// A robot whose role is over stands within so many periods, or runs away.
+const MOST_COASTED: u64 = 600;
 
-/// A failure under way.
-#[derive(Clone, Copy, Debug)]
-struct Failure {
-    mode: FailureMode,
-    part: Modules,
-    since: u64,
-    /// For how long its observer has been able to see it, in ms.
-    seen: u64,
-    found: bool,
-    over: bool,
-    lowered: bool,
-}
-
-/// What a round came to.
+/// The outcome of a round.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Driven {
     /// The failure that was found.
@@ -45,16 +36,16 @@ pub(super) struct Driven {
 #[derive(Clone, Debug)]
 pub(super) struct Driver {
     decider: DeliveryDecider,
-    failures: Vec<Failure>,
-    /// What is broken, and what works in spite of it.
-    works: (Health, Modules),
+    robot: Robot,
+    chassis: &'static Chassis,
+    /// The robot has gone on until then: a multiple of the period.
     now: u64,
     /// A task is to be begun.
     wanted: bool,
-    /// The length of both drives, in µm, and how far the one under way has come.
-    legs_um: [u64; 2],
-    x_um: u64,
-    speed_mm_s: u64,
+    /// The length of both drives.
+    legs: [Millimetres; 2],
+    /// The robot goes on evenly, and its modules compute in time.
+    steady: bool,
     quiet: u32,
     /// Every round is taken: for the test that the others change nothing.
     every_round: bool,
@@ -64,13 +55,12 @@ impl Driver {
     pub(super) fn new(every_round: bool) -> Self {
         Self {
             decider: fresh(Health::SOUND),
-            failures: Vec::new(),
-            works: (Health::SOUND, Health::SOUND.relied_on()),
+            robot: Robot::new(),
+            chassis: &DELIVERY,
             now: 0,
             wanted: false,
-            legs_um: [0; 2],
-            x_um: 0,
-            speed_mm_s: 0,
+            legs: [Millimetres(0); 2],
+            steady: true,
             quiet: REST,
             every_round,
         }
@@ -79,29 +69,48 @@ impl Driver {
     /// A task begins: two drives of these lengths.
     pub(super) fn begin(&mut self, now: u64, legs_mm: [u64; 2]) {
         self.forget(now);
-        (self.wanted, self.legs_um) = (true, legs_mm.map(|it| it * 1_000));
+        (self.wanted, self.legs) = (true, legs_mm.map(Millimetres));
     }
 
-    /// The task is over or was given up: the robot stands. What is broken stays known.
+    /// The task is over or was given up: the robot stands where it [comes to
+    /// stand](Self::stand_mm). What is broken stays known.
     pub(super) fn forget(&mut self, now: u64) {
         self.go(now);
+        self.drop_role();
+        self.robot.drive.restart();
+        self.robot.drive.stand();
+        (self.wanted, self.quiet) = (false, 0);
+    }
+
+    fn drop_role(&mut self) {
         if !matches!(self.stage(), Stage::Stops | Stage::Safe) {
             self.decider = fresh(self.decider.health());
-            for it in self.failures.iter_mut().filter(|it| !it.over) {
-                (it.found, it.seen) = (false, 0);
-            }
+            self.robot.are_new_again();
         }
-        (self.wanted, self.speed_mm_s, self.x_um, self.quiet) = (false, 0, 0, 0);
+    }
+
+    /// How far the drive under way will have come, in mm, when the robot stands whose role is over
+    /// now: it brakes, and without a laptop the micro-controller stops it later.
+    pub(super) fn stand_mm(&self, now: u64) -> u64 {
+        let (mut ahead, leg) = (self.clone(), self.leg());
+        ahead.go(now);
+        if ahead.thinks() {
+            ahead.drop_role();
+        }
+        for _ in 0..MOST_COASTED {
+            if !ahead.robot.moves() || ahead.robot.x() >= leg {
+                break;
+            }
+            ahead.go(ahead.now + PERIOD.0);
+        }
+        ahead.robot.x().min(leg).0
     }
 
     /// Something fails.
     pub(super) fn fail(&mut self, now: u64, mode: FailureMode) {
         self.go(now);
-        let part = Modules::of(&[Module::Smz]);
-        let (seen, found, over, lowered) = (0, false, false, false);
-        self.failures.push(Failure { mode, part, since: now, seen, found, over, lowered });
-        self.quiet = 0;
-        self.speed_mm_s = if self.thinks() { self.speed_mm_s } else { 0 };
+        self.robot.fail(Millis(now), mode, Module::Smz);
+        (self.quiet, self.steady) = (0, false);
     }
 
     /// Something outside has changed: the next rounds count.
@@ -111,10 +120,15 @@ impl Driver {
 
     /// Whether its laptop is up.
     pub(super) fn thinks(&self) -> bool {
-        !self.failures.iter().any(|it| !it.over && effect(it.mode).motion == Motion::Mindless)
+        self.robot.thinks()
     }
 
-    /// Where the mission is.
+    /// Energy used so far, in mJ.
+    pub(super) fn energy_mj(&self, now: u64) -> u64 {
+        self.at(now).energy_uj / 1_000
+    }
+
+    /// Returns the stage of the mission.
     pub(super) fn stage(&self) -> Stage {
         match self.decider.global().0 {
             0 if self.wanted => Stage::ToTake,
@@ -129,19 +143,21 @@ impl Driver {
         }
     }
 
-    /// How far the drive under way has come by now, in mm.
+    /// How far the drive under way had come at the end of the last period, in mm.
     pub(super) fn driven_mm(&self, now: u64) -> u64 {
-        self.x_at(now) / 1_000
+        self.at(now).x().min(self.leg()).0
     }
 
-    /// What is left of the drive under way, in mm.
+    /// Returns the rest of the drive under way, in mm.
     pub(super) fn left_mm(&self, now: u64) -> u64 {
-        self.leg().saturating_sub(self.x_at(now)).div_ceil(1_000)
+        self.leg().0.saturating_sub(self.driven_mm(now))
     }
 
-    fn x_at(&self, now: u64) -> u64 {
-        let way = self.speed_mm_s.saturating_mul(now.saturating_sub(self.now));
-        self.x_um.saturating_add(way).min(self.leg().max(self.x_um))
+    /// The robot at the end of the last period.
+    fn at(&self, now: u64) -> Robot {
+        let mut there = self.clone();
+        there.go(now);
+        there.robot
     }
 
     /// How fast it could drive with what works, in mm/s; none where it cannot.
@@ -155,39 +171,110 @@ impl Driver {
         able.next().map(|it| it.facts().speed.0)
     }
 
-    fn leg(&self) -> u64 {
-        self.legs_um[usize::from(self.decider.global().0 >= 3)]
+    fn leg(&self) -> Millimetres {
+        self.legs[usize::from(self.decider.global().0 >= 3)]
     }
 
-    /// The robot goes on until now.
+    /// Whether the present objective is a drive.
+    fn is_driving(&self) -> bool {
+        matches!(self.decider.global().0, 1 | 3)
+    }
+
+    /// The demand of the decisional level until the next round.
+    fn demand(&self) -> Demand {
+        let requests = self.decider.requests();
+        let free = requests.configuration.map_or(MillimetresPerSecond(0), |it| it.facts().speed);
+        let adjusted = requests.speed.0 * u64::from(requests.adjusted.speed) / 1_000;
+        let (x, braking) = (self.robot.x().0, self.robot.drive.braking_distance().0);
+        Demand {
+            speed: MillimetresPerSecond(if requests.drive { adjusted } else { 0 }),
+            free,
+            most: self.chassis.speed_max,
+            halt: requests.halt,
+            end: if self.is_driving() { self.leg() } else { Millimetres(x + braking + 1) },
+            situation: self.decider.situation(),
+        }
+    }
+
+    /// The robot goes on, period by period, until now.
     fn go(&mut self, now: u64) {
-        self.x_um = self.x_at(now);
-        self.now = now;
+        while self.now + PERIOD.0 <= now {
+            let (before, demand) = (self.robot.drive, self.demand());
+            self.robot.end_failures(Millis(self.now), |_| false);
+            let (towards, end) = self.robot.answer(Millis(self.now), &demand);
+            self.robot.drive.go(towards, end, PERIOD);
+            self.now += PERIOD.0;
+            let configuration = demand.situation.configuration();
+            let power = self.chassis.power(configuration, self.robot.drive.speed());
+            self.robot.draw(power, PERIOD);
+            if !self.robot.drive.is_steady_since(&before, PERIOD) {
+                self.steady = false;
+                continue;
+            }
+            let left = (now - self.now) / PERIOD.0;
+            let even = self.robot.drive.times_before(end, PERIOD).unwrap_or(0);
+            let even = if self.robot.moves() { even } else { u64::MAX };
+            let times = left.min(even).min(self.periods_unchanged());
+            self.robot.drive.glide(times, PERIOD);
+            self.robot.draw(power, Millis(times * PERIOD.0));
+            self.now += times * PERIOD.0;
+        }
+    }
+
+    /// In how many periods no failure changes by itself.
+    fn periods_unchanged(&self) -> u64 {
+        let changes = self.robot.failures.iter().filter(|it| !it.over).flat_map(Failure::changes);
+        let later = changes.flatten().filter(|it| it.0 > self.now);
+        later.map(|it| (it.0 - self.now).div_ceil(PERIOD.0)).min().map_or(u64::MAX, |it| it - 1)
+    }
+
+    fn watch(&self) -> Watch<'static> {
+        let (situation, observing) = (self.decider.situation(), self.decider.observing());
+        Watch { situation, observing, planted: &[] }
     }
 
     /// A round. `done` says that what is taken or given at this place is taken or given.
     pub(super) fn round(&mut self, now: u64, done: bool) -> Driven {
+        let (before, last) = (self.robot.drive.speed(), self.now);
+        self.steady = true;
         self.go(now);
+        self.robot.end_failures(Millis(now), |_| false);
+        let changes = self.robot.failures.iter().flat_map(Failure::changes).flatten();
+        let changed = { changes }.any(|it| last < it.0 && it.0 <= now);
+        self.steady &= self.robot.drive.speed() == before && !changed;
+        if now > last + PERIOD.0 {
+            let body = Body { at_goal: false, stands: !self.robot.moves() };
+            self.decider.idle(Millis(now - PERIOD.0), body);
+        }
         let mut driven = Driven { found: None, configuration: None };
         if !self.thinks() {
-            self.speed_mm_s = 0;
             return driven;
         }
         let before = (self.decider.situation(), self.decider.global(), self.decider.requests());
-        driven.found = self.observe(now);
-        let said = if self.decider.listens() { self.says(now, done) } else { None };
-        let body = Body { at_goal: self.x_um >= self.leg(), stands: self.speed_mm_s == 0 };
-        let round = self.decider.round(Millis(now), said, body, &mut ());
-        let after = (self.decider.situation(), self.decider.global(), self.decider.requests());
-        if after.1 != before.1 && matches!(after.1.0, 1 | 3) {
-            self.x_um = 0;
+        let available = self.decider.available();
+        let (scheduler, computes) = self.robot.compute(Millis(now), before.0, available);
+        self.steady &= computes;
+        let observed = self.robot.observe(scheduler, &self.watch());
+        let finding = self.decider.perceive(Millis(now), observed.perceived, &mut NoPlans);
+        if finding.is_some() {
+            self.robot.are_found(&observed.seen);
+            driven.found = observed.seen.first().map(|it| self.robot.failures[*it].mode);
         }
-        let quiet = round.told.is_none() && self.decider.listens() && before == after;
+        let said = if self.decider.listens() { self.says(now, done) } else { None };
+        let at_goal = self.robot.x() >= self.leg();
+        let body = Body { at_goal, stands: !self.robot.moves() };
+        let round = self.decider.round(Millis(now), said, body, &mut ());
+        self.robot.took_a_round(self.decider.listens());
+        let after = (self.decider.situation(), self.decider.global(), self.decider.requests());
+        if after.1 != before.1 && self.is_driving() {
+            self.robot.drive.restart();
+        }
+        let quiet =
+            round.told.is_none() && finding.is_none() && self.decider.listens() && before == after;
         self.quiet = if quiet { self.quiet + 1 } else { 0 };
         if after.2.configuration != before.2.configuration {
             driven.configuration = after.2.configuration;
         }
-        self.speed_mm_s = self.speed();
         driven
     }
 
@@ -197,71 +284,32 @@ impl Driver {
             return None;
         }
         let soon = (self.now + 1).next_multiple_of(PERIOD.0);
-        let requests = self.decider.requests();
+        let sees = self.robot.periods_unseen(&self.watch()) < u64::MAX;
+        let ended = matches!(self.stage(), Stage::Done | Stage::Stops | Stage::Safe);
         // Patience ends by itself, and so does what adapters have changed.
-        let timed = requests.ask || requests.adjusted.speed < 1_000;
-        let waits = self.failures.iter().any(|it| self.waits(it));
-        if self.quiet < REST || self.every_round || timed || waits {
+        let idle = if ended { Some(Millis(u64::MAX)) } else { self.decider.idle_until() };
+        let Some(idle) = idle.filter(|_| self.quiet >= REST && !self.every_round) else {
+            return Some(soon);
+        };
+        if sees || !self.steady {
             return Some(soon);
         }
-        let ends = |it: &Failure| match effect(it.mode).ends {
-            Ends::After(time) if !it.over => Some(it.since + time.0),
-            _ => None,
-        };
-        let ends = self.failures.iter().filter_map(ends);
+        let under_way = self.robot.failures.iter().filter(|it| !it.over);
+        let changes = under_way.flat_map(Failure::changes).flatten().map(|it| it.0);
+        let changes = changes.filter(|it| *it > self.now);
         let local = self.decider.situation().local;
         let planned =
             (local == local::State::Planning).then(|| self.decider.since().0 + PLANNING.0);
-        let arrives = (self.speed_mm_s > 0)
-            .then(|| self.now + (self.leg() - self.x_um).div_ceil(self.speed_mm_s));
-        let next = ends.chain(planned).chain(arrives).min()?;
+        let arrives = self.robot.moves().then(|| {
+            let times = self.robot.drive.times_before(self.leg(), PERIOD).unwrap_or(0);
+            self.now + times.saturating_add(1) * PERIOD.0
+        });
+        let patience = (idle.0 < u64::MAX).then_some(idle.0);
+        let next = changes.chain(planned).chain(arrives).chain(patience).min()?;
         Some(next.max(soon).next_multiple_of(PERIOD.0))
     }
 
-    /// Whether a failure is about to be found.
-    fn waits(&self, failure: &Failure) -> bool {
-        let moving = self.speed_mm_s > 0;
-        let seen = observable(failure.mode, self.decider.situation(), moving);
-        !failure.over && !failure.found && seen && !raises(failure.mode, Modules::ALL).is_empty()
-    }
-
-    /// Observers raise and lower their flags.
-    fn observe(&mut self, now: u64) -> Option<FailureMode> {
-        let (moving, situation) = (self.speed_mm_s > 0, self.decider.situation());
-        let (mut raised, mut lowered, mut held) = (Flags::NONE, Flags::NONE, Flags::NONE);
-        let (mut found, mut part, mut broken) = (None, Modules::NONE, Health::SOUND);
-        for it in &mut self.failures {
-            let flags = it.mode.rule().signature.always;
-            if let Ends::After(time) = effect(it.mode).ends {
-                it.over |= now >= it.since + time.0;
-            }
-            if it.over {
-                if it.found && !it.lowered {
-                    (it.lowered, lowered) = (true, lowered.union(flags));
-                }
-                continue;
-            }
-            broken = broken.union(it.mode.health(it.part));
-            if it.found {
-                held = held.union(flags);
-            } else if observable(it.mode, situation, moving) {
-                it.seen += PERIOD.0;
-                if it.seen >= u64::from(it.mode.rule().latency_ms) {
-                    (it.found, found, part) = (true, Some(it.mode), it.part);
-                    raised = raised.union(raises(it.mode, self.decider.observing()));
-                }
-            }
-        }
-        if self.works.0 != broken {
-            self.works = (broken, broken.relied_on());
-        }
-        let (lowered, works) = (lowered.without(held), self.works.1);
-        let perceived = Perceived { raised, lowered, part, works };
-        let _ = self.decider.perceive(Millis(now), perceived, &mut NoPlans);
-        found
-    }
-
-    /// What the mission and the planner of paths have to say.
+    /// Returns the word of the mission and the planner of paths.
     fn says(&mut self, now: u64, done: bool) -> Option<Word> {
         match self.decider.global().0 {
             0 if self.wanted => Some(Word::MissionReceived),
@@ -274,23 +322,6 @@ impl Driver {
             }
             _ => None,
         }
-    }
-
-    /// How fast it goes: as its decisional component allows, and as failures let it.
-    fn speed(&self) -> u64 {
-        let requests = self.decider.requests();
-        if !requests.drive || self.x_um >= self.leg() {
-            return 0;
-        }
-        let mut speed = requests.speed.0 * u64::from(requests.adjusted.speed) / 1_000;
-        for it in self.failures.iter().filter(|it| !it.over) {
-            speed = match effect(it.mode).motion {
-                Motion::Free | Motion::Runaway => speed,
-                Motion::Slowed(parts) => speed.min(requests.speed.0 * u64::from(parts) / 1_000),
-                Motion::Blocked | Motion::Dead | Motion::Silent | Motion::Mindless => 0,
-            };
-        }
-        speed
     }
 }
 
@@ -373,10 +404,46 @@ mod tests {
                 driver.fail(now, FailureMode::P3d2);
             }
             driver.round(now, false);
-            slowed.extend((driver.speed_mm_s == 210).then_some(now));
+            let slow = now > 20_000 && driver.robot.drive.speed().0 < 300;
+            slowed.extend(slow.then_some(now));
         }
         let ends = (slowed.first().copied(), slowed.last().copied());
-        assert_eq!(ends, (Some(22_100), Some(40_800)));
-        assert_eq!(slowed.len() as u64, (40_800 - 22_100) / 100 + 1);
+        // In steps of 30 mm/s, down and up again.
+        assert_eq!(ends, (Some(22_200), Some(41_100)));
+        assert_eq!(slowed.len() as u64, (41_100 - 22_200) / 100 + 1);
+    }
+
+    /// Drives for 20 s at 300 mm/s, then loses its laptop or its role.
+    fn stands_after(mode: Option<FailureMode>) -> u64 {
+        let mut driver = Driver::new(true);
+        driver.begin(0, [60_000, 60_000]);
+        for now in (0..=20_000).step_by(100) {
+            driver.round(now, false);
+        }
+        let before = driver.driven_mm(20_000);
+        mode.into_iter().for_each(|it| driver.fail(20_000, it));
+        driver.stand_mm(20_000) - before
+    }
+
+    #[test]
+    fn a_robot_brakes_at_the_end_of_its_role_and_coasts_without_its_laptop() {
+        assert_eq!(stands_after(None), 150);
+        // Two seconds until the micro-controller stops the motors.
+        assert_eq!(stands_after(Some(FailureMode::Pwr1)), 600 + 150);
+        assert_eq!(stands_after(Some(FailureMode::Bat2)), 0);
+    }
+
+    #[test]
+    fn a_motor_that_runs_away_is_cut_off_and_moved_meanwhile() {
+        let mut driver = Driver::new(true);
+        (0..=20_000).step_by(100).for_each(|now| {
+            if now == 10_000 {
+                driver.fail(now, FailureMode::Mot4);
+            }
+            driver.round(now, false);
+        });
+        assert_eq!(driver.stage(), Stage::Safe);
+        let (x, speed) = (driver.robot.x(), driver.robot.drive.speed().0);
+        assert!(x > Millimetres(0) && speed == 0, "{x:?} {speed}");
     }
 }

@@ -1,11 +1,13 @@
-//! What robots and auctioneers say to each other (F. Rohrmueller, dissertation, TU München 2011,
+//! Messages between robots and auctioneers (F. Rohrmueller, dissertation, TU München 2011,
 //! Algorithms 3.1 and 3.2; `Release` and the terms of an award are ours).
 
-use super::task::{ErrorClass, Offer, Share};
+use crate::fleet::bid::{Offer, Share};
 use cotama_core::team::RobotSet;
+use cotama_models::team::ErrorClass;
 use std::rc::Rc;
 
-/// Who speaks, or is spoken to: each robot has a broker, and one address an auctioneer too.
+/// The sender or the receiver of a message: each robot has a broker, and one address an auctioneer
+/// too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Party {
     /// The broker of a robot, with its bidder.
@@ -40,9 +42,9 @@ pub(super) enum Status {
 /// Why an award ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ending {
-    /// It is withdrawn: everyone goes back to idle and says so by `Nack`.
+    /// The award is withdrawn: everyone goes back to idle and says so by `Nack`.
     Withdrawn,
-    /// That it is completed or failed has been heard.
+    /// The news that the task is completed or failed has been heard.
     Heard,
 }
 
@@ -58,7 +60,7 @@ pub(super) enum Message {
     Announce { round: u32, tasks: Rc<[usize]> },
     /// A broker asks a bidder for its costs.
     Request { round: u32, tasks: Rc<[usize]> },
-    /// What a bidder answers.
+    /// The answer of a bidder.
     Reply { round: u32, offers: Rc<[Offer]> },
     /// Costs of the robot in roles, or the best coalition that the broker answers for.
     Bid { round: u32, offers: Rc<[Offer]>, coalition: Option<Share> },
@@ -66,7 +68,7 @@ pub(super) enum Message {
     Assign { award: Option<Rc<Award>>, until_ms: u64 },
     /// The award is accepted.
     Ack { award: AwardId },
-    /// It is not, or no longer.
+    /// The robot is not, or no longer, bound by the award.
     Nack { award: AwardId },
     /// How a role goes.
     Status { award: AwardId, status: Status },
@@ -74,14 +76,14 @@ pub(super) enum Message {
     Release { award: AwardId, ending: Ending },
 }
 
-/// What a coalition is to do.
+/// The award of a task to a coalition.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Award {
     pub(super) id: AwardId,
     pub(super) plan: usize,
     /// The robot of each role.
     pub(super) robots: Vec<usize>,
-    /// What each role may cost, in ms: beyond it the robot gives the task back.
+    /// Largest cost of each role, in ms: beyond it the robot gives the task back.
     pub(super) pledges_ms: Vec<u64>,
     pub(super) members: RobotSet,
     pub(super) auctioneer: usize,
@@ -98,9 +100,9 @@ pub(super) struct Letter {
 /// The kinds of messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
-    /// Who is there, and for how long an award holds.
+    /// Robots report that they are there, and for how long an award holds.
     Alive,
-    /// What is open.
+    /// Open tasks are announced.
     Announce,
     /// A broker asks a bidder.
     Request,
@@ -108,7 +110,7 @@ pub enum Kind {
     Reply,
     /// A broker bids.
     Bid,
-    /// Who does what.
+    /// A coalition is awarded a task.
     Assign,
     /// Accepted.
     Ack,
@@ -121,7 +123,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [Self; 10] = [
         Self::Alive,
         Self::Announce,
@@ -135,7 +137,7 @@ impl Kind {
         Self::Release,
     ];
 
-    /// Its name.
+    /// Returns the name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Alive => "Alive",

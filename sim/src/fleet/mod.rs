@@ -33,7 +33,8 @@
 //!
 //! *Who does what* is computed by [`cotama_core::team`]: all open tasks at once at the least cost,
 //! or by the greedy rounds of the thesis, or task by task, for comparison. Brokers share coalitions
-//! as in Algorithm A.1 where [`Formation::Distributed`](task::Formation) says so.
+//! as in Algorithm A.1 where
+//! [`Formation::Distributed`](cotama_models::team::scenario::Formation) says so.
 //!
 //! The same scenario gives the same bytes: random numbers come from named streams, and of one
 //! moment letters come first, then the auctioneer, then robots by their numbers.
@@ -46,31 +47,34 @@
 //! ```
 
 mod allocate;
+mod bid;
 pub mod campaign;
 mod driver;
-mod floor;
 mod message;
 mod network;
 pub mod record;
 pub mod scenarios;
-pub mod task;
 pub mod trace;
 mod world;
 
 #[cfg(test)]
 mod tests;
 
-pub use floor::{Floor, Place, Spot};
+pub use cotama_models::team::scenario::{Floor, Place, Quality, Scenario, Spot};
 pub use message::Kind;
-pub use network::Quality;
 
 use record::{Record, Run};
-use task::Scenario;
+pub use world::Planted;
 use world::World;
 
 /// Runs a scenario; its numbers.
 pub fn run(scenario: &Scenario) -> Run {
     World::new(scenario, false, None).run().0
+}
+
+/// Runs a scenario with a defect.
+pub fn run_with(scenario: &Scenario, planted: Option<Planted>) -> Run {
+    World::new(scenario, false, planted).run().0
 }
 
 /// Runs a scenario; its numbers, and what happened.

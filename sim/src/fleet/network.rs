@@ -2,28 +2,7 @@
 
 use super::message::{Kind, Letter};
 use crate::streams::{Stream, Streams};
-
-/// How good the network is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Quality {
-    /// The least delay of a message, in ms.
-    pub delay_ms: u64,
-    /// So much more it may take, evenly, in ms.
-    pub jitter_ms: u64,
-    /// How many of a thousand messages are lost.
-    pub loss_permille: u16,
-    /// How many of a thousand arrive twice.
-    pub copies_permille: u16,
-}
-
-impl Quality {
-    /// Nothing is lost or copied.
-    pub const PERFECT: Self =
-        Self { delay_ms: 5, jitter_ms: 0, loss_permille: 0, copies_permille: 0 };
-    /// A wireless network in an office, but for its loss: assumed.
-    pub const OFFICE: Self =
-        Self { delay_ms: 5, jitter_ms: 45, loss_permille: 0, copies_permille: 5 };
-}
+use cotama_models::team::scenario::Quality;
 
 /// A network, and what it was given.
 #[derive(Clone, Debug)]

@@ -1,11 +1,14 @@
-//! What a run leaves behind: its records, in the order of time, and its numbers.
+//! The records of a run, in the order of time, and its numbers.
 
 use super::message::Kind;
-use super::task::Stage;
-use serde::Serialize;
+use crate::trace::Line;
+use cotama_models::cotama::{Configuration, FailureMode};
+use cotama_models::team::ErrorClass;
+use cotama_models::team::scenario::Stage;
+use serde::{Deserialize, Serialize};
 
 /// Something that happened. Robots and tasks are numbers; the header of a trace has their names.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "record", rename_all = "snake_case")]
 pub enum Record {
     /// A task became known.
@@ -19,7 +22,7 @@ pub enum Record {
     Round {
         /// When, in ms.
         t_ms: u64,
-        /// Its number, from 1.
+        /// Number of the round, from 1.
         round: u32,
         /// The tasks that were announced.
         tasks: Vec<usize>,
@@ -40,9 +43,9 @@ pub enum Record {
         plan: String,
         /// The robot of each role.
         robots: Vec<usize>,
-        /// What each role is to cost, in ms.
+        /// Planned cost of each role, in ms.
         costs_ms: Vec<u32>,
-        /// What each role may cost, in ms.
+        /// Largest cost of each role, in ms.
         pledges_ms: Vec<u64>,
     },
     /// A robot came to another stage of its task.
@@ -54,20 +57,32 @@ pub enum Record {
         /// The task; none where it rests.
         task: Option<usize>,
         /// The stage.
+        #[serde(with = "crate::named")]
         stage: Stage,
     },
-    /// Something went wrong.
-    Fault {
+    /// A robot fails.
+    Fails {
         /// When, in ms.
         t_ms: u64,
-        /// The robot that it is about.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        robot: Option<usize>,
-        /// The task whose object it is about.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        task: Option<usize>,
-        /// The failure mode of a robot; `shifted` or `turned` of an object.
-        what: String,
+        /// The robot.
+        robot: usize,
+        /// The row of the FMECA.
+        #[serde(with = "crate::named")]
+        mode: FailureMode,
+    },
+    /// The object of a task moves under the hand.
+    Shifted {
+        /// When, in ms.
+        t_ms: u64,
+        /// The task.
+        task: usize,
+    },
+    /// The object of a task turns: some capabilities can no longer take it.
+    Turned {
+        /// When, in ms.
+        t_ms: u64,
+        /// The task.
+        task: usize,
     },
     /// The decisional component of a robot found a failure.
     Found {
@@ -76,7 +91,8 @@ pub enum Record {
         /// The robot.
         robot: usize,
         /// The failure mode.
-        mode: String,
+        #[serde(with = "crate::named")]
+        mode: FailureMode,
     },
     /// The decisional component of a robot changed its configuration under way.
     Configured {
@@ -85,7 +101,8 @@ pub enum Record {
         /// The robot.
         robot: usize,
         /// The configuration.
-        configuration: String,
+        #[serde(with = "crate::named")]
+        configuration: Configuration,
     },
     /// An error in a task, by its class.
     Error {
@@ -95,9 +112,10 @@ pub enum Record {
         robot: usize,
         /// The task.
         task: usize,
-        /// `recoverable`, `semi-recoverable` or `non-recoverable`.
-        class: String,
-        /// What happened.
+        /// The class.
+        #[serde(with = "crate::named")]
+        class: ErrorClass,
+        /// The reason, in words.
         why: String,
     },
     /// The auctioneer has not heard of a robot for too long, and withdraws the award.
@@ -131,26 +149,55 @@ pub enum Record {
         t_ms: u64,
         /// The task.
         task: usize,
-        /// Why.
+        /// The reason, in words.
         why: String,
     },
+    /// All tasks have ended: the numbers of the run.
+    End(Box<Run>),
+}
+
+impl Line for Record {
+    fn time(&self) -> u64 {
+        match self {
+            Self::Opened { t_ms, .. }
+            | Self::Round { t_ms, .. }
+            | Self::Awarded { t_ms, .. }
+            | Self::Stage { t_ms, .. }
+            | Self::Fails { t_ms, .. }
+            | Self::Shifted { t_ms, .. }
+            | Self::Turned { t_ms, .. }
+            | Self::Found { t_ms, .. }
+            | Self::Configured { t_ms, .. }
+            | Self::Error { t_ms, .. }
+            | Self::Silent { t_ms, .. }
+            | Self::Reopened { t_ms, .. }
+            | Self::Done { t_ms, .. }
+            | Self::Reported { t_ms, .. } => *t_ms,
+            Self::End(_) => u64::MAX,
+        }
+    }
+
+    fn is_end(&self) -> bool {
+        matches!(self, Self::End(_))
+    }
 }
 
 /// How a task ended.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fate {
-    /// It is neither: the run was cut short. Never, or the protocol is wrong.
+    /// The task is neither done nor reported: the run was cut short. Never, or the protocol is
+    /// wrong.
     #[default]
     Open,
-    /// It is done.
+    /// The task is done.
     Done,
-    /// It was reported as not to be done.
+    /// The task was reported as not to be done.
     Reported,
 }
 
 /// The numbers of a run.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Run {
     /// How each task ended.
     pub fates: Vec<Fate>,
@@ -175,6 +222,8 @@ pub struct Run {
     pub busy_ms: u64,
     /// The same with the utility of what was not done.
     pub cost_ms: u64,
+    /// Energy that the robots drew until the end, all together, in mJ.
+    pub energy_mj: u64,
     /// From when tasks became known until they were done, all together, in ms.
     pub waited_ms: u64,
     /// When the last task ended.

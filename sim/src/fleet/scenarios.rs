@@ -1,54 +1,36 @@
-//! What can be run: the drink service of the thesis, an office with a fleet, and the worst cases of
-//! its table of messages.
+//! Scenarios: the drink service of the thesis, an office with a fleet, and the worst cases of its
+//! table of messages.
 
-use super::floor::{Floor, Place};
-use super::network::Quality;
-use super::task::{
-    Fault, FaultKind, FaultTime, Formation, Give, MAX_ROBOTS, Method, PlanSpec, RobotSpec,
-    RoleSpec, Scenario, Stage, Take, TaskSpec,
-};
 use crate::streams::{Stream, Streams};
 use cotama_core::team::Combine;
 use cotama_models::cotama::FailureMode;
-use cotama_models::team::service::{self, DETECT, GRASP_2F, MOVE};
-use cotama_models::team::{Action, ActionPlan, Capability, Constraint, Role, Skill};
+use cotama_models::team::scenario;
+use cotama_models::team::scenario::{
+    Fault, FaultKind, FaultTime, Floor, Formation, Give, MAX_ROBOTS, Method, Needs, Place,
+    PlanSpec, Quality, RobotSpec, RoleSpec, Scenario, Take, TaskSpec,
+};
+use cotama_models::team::service::{DETECT, GRASP_2F, MOVE};
+use cotama_models::team::{Capability, CapabilitySet, Skill};
 
 /// May enter the secured wing.
 const BADGE: Capability = Capability::new(6).expect("it is a small number");
 
-const ANYBODY: Role<'static> = carries(&[Constraint::Has(MOVE), Constraint::Has(GRASP_2F)]);
-const WITH_BADGE: Role<'static> =
-    carries(&[Constraint::Has(MOVE), Constraint::Has(GRASP_2F), Constraint::Has(BADGE)]);
+/// The needs of a delivery, and of one into the secured wing.
+const ANYBODY: [Capability; 2] = [MOVE, GRASP_2F];
+const WITH_BADGE: [Capability; 3] = [MOVE, GRASP_2F, BADGE];
 
-const fn carries(needs: &'static [Constraint<'static>]) -> Role<'static> {
-    // One action stands for all, as they need the same.
-    match needs.len() {
-        2 => Role { name: "carry", plans: &[ActionPlan { name: "carry", actions: &ANY_ACTIONS }] },
-        _ => {
-            Role { name: "carry", plans: &[ActionPlan { name: "carry", actions: &BADGE_ACTIONS }] }
-        }
-    }
+/// The names of the capabilities of the service and the fleet, by their numbers.
+fn skills() -> Vec<String> {
+    let names = ["move", "detect", "grasp-2f", "grasp-3f", "cue-hold", "dialogue", "badge"];
+    names.map(str::to_owned).to_vec()
 }
-
-const ANY_ACTIONS: [Action<'static>; 1] = [Action {
-    name: "carry",
-    needs: Constraint::All(&[Constraint::Has(MOVE), Constraint::Has(GRASP_2F)]),
-}];
-const BADGE_ACTIONS: [Action<'static>; 1] = [Action {
-    name: "carry with a badge",
-    needs: Constraint::All(&[
-        Constraint::Has(MOVE),
-        Constraint::Has(GRASP_2F),
-        Constraint::Has(BADGE),
-    ]),
-}];
 
 /// A fleet in an office.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FleetOptions {
     /// How many robots; at most [`MAX_ROBOTS`].
     pub robots: usize,
-    /// How many deliveries.
+    /// Number of deliveries.
     pub tasks: usize,
     /// How many robots fail for good; as many others have a lesser failure.
     pub failures: usize,
@@ -124,6 +106,7 @@ pub fn fleet(options: &FleetOptions) -> Scenario {
     };
     Scenario {
         name: "fleet".into(),
+        skills: skills(),
         floor,
         robots: (0..robots).map(robot).collect(),
         tasks: tasks.collect(),
@@ -177,17 +160,19 @@ fn delivery(number: usize, arrival_ms: u64, start: usize, goal: usize) -> TaskSp
     let place = |office: usize| Place(2 * NODES + office);
     // Just outside of the secured wing.
     let door = Place(NODES + SECURED - 1);
-    let role = |role: &'static Role<'static>, take: Take, give: Give| RoleSpec {
-        role,
+    // One action stands for all, as they need the same.
+    let role = |needs: &[Capability], take: Take, give: Give| RoleSpec {
+        name: "carry".into(),
+        actions: vec![Needs::all(needs)],
         take,
         give,
         take_ms: 5_000,
         give_ms: 5_000,
     };
-    let alone = |it: &'static Role<'static>| PlanSpec {
+    let alone = |needs: &[Capability]| PlanSpec {
         name: "carry".into(),
         extra_ms: 0,
-        roles: vec![role(it, Take::Object, Give::Goal)],
+        roles: vec![role(needs, Take::Object, Give::Goal)],
     };
     let plans = match (secured(start), secured(goal)) {
         (false, false) => vec![alone(&ANYBODY)],
@@ -219,7 +204,7 @@ fn delivery(number: usize, arrival_ms: u64, start: usize, goal: usize) -> TaskSp
 /// The drink service.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ServiceOptions {
-    /// The cup stands so that two fingers cannot grasp it: run 1 of the thesis.
+    /// The cup stands so that two fingers cannot grasp it: run 1 of the thesis (3.6.2).
     pub hidden_handle: bool,
     /// The three disturbances of run 2.
     pub disturbances: bool,
@@ -230,99 +215,30 @@ pub struct ServiceOptions {
 }
 
 /// The drink service (3.6): a person orders at the desk; a cup in the kitchen is to be served.
-/// Speeds are those of the delivery robot, distances and times of hands are assumed.
+/// The file is `models/teams/service.toml`; speeds are those of the delivery robot.
 ///
 /// ```
 /// use cotama_sim::fleet::{record::Fate, run, scenarios::{ServiceOptions, service}};
 /// let run = run(&service(&ServiceOptions { disturbances: true, ..ServiceOptions::default() }));
 /// assert_eq!((run.rounds, run.count(Fate::Done), run.awards), (4, 2, vec![1, 3]));
 /// ```
+///
+/// # Panics
+/// Never: the file is shipped, and a test reads it.
 pub fn service(options: &ServiceOptions) -> Scenario {
-    let names = ["desk", "hall", "kitchen", "billiards", "lounge"];
-    let ways = [(0, 1, 4_000), (1, 2, 6_000), (1, 3, 9_000), (1, 4, 40_000)];
-    let [desk, hall, kitchen, billiards, lounge] = [0, 1, 2, 3, 4].map(Place);
-    let starts = [hall, lounge, lounge, billiards];
-    let named = |name: &str| format!("{}{}", name[..1].to_uppercase(), &name[1..]);
-    let robots = service::ROBOTS.iter().zip(starts).map(|(it, start)| RobotSpec {
-        name: named(it.name),
-        skills: it.skills.to_vec(),
-        start,
-    });
-    let ms = |seconds: u32| seconds * 1_000;
-    let task = |spec: &'static cotama_models::team::Task<'static>| {
-        let plans = spec.plans.iter().map(move |plan| PlanSpec {
-            name: plan.name.into(),
-            extra_ms: ms(plan.extra),
-            roles: plan
-                .roles
-                .iter()
-                .enumerate()
-                .map(|(place, role)| service_role(role, place, plan.roles.len(), desk))
-                .collect(),
-        });
-        TaskSpec {
-            name: spec.name.into(),
-            arrival_ms: 1_000,
-            after: None,
-            start: kitchen,
-            goal: desk,
-            utility_ms: ms(spec.utility),
-            combine: spec.combine,
-            plans: plans.collect(),
-        }
-    };
-    let serve = TaskSpec { after: Some(0), ..task(&service::SERVE) };
-    let (eddie, poppy) = (0, 2);
-    let takes = |time: u32, after_ms: u64, what: FaultKind| Fault {
-        when: FaultTime::During { robot: eddie, task: 1, stage: Stage::Takes, time, after_ms },
-        what,
-    };
-    let stop =
-        FaultTime::During { robot: poppy, task: 1, stage: Stage::ToGive, time: 1, after_ms: 5_000 };
-    let mut faults = Vec::new();
+    let mut scenario = scenario::service().expect("it is shipped");
+    if !options.disturbances {
+        scenario.faults.clear();
+    }
     if options.hidden_handle {
-        faults.push(Fault { when: FaultTime::At(0), what: FaultKind::Turned(1) });
+        let hides = CapabilitySet::of(&[GRASP_2F]);
+        scenario.faults.push(Fault { when: FaultTime::At(0), what: FaultKind::Turned(1, hides) });
     }
-    if options.disturbances {
-        faults.push(takes(1, 5_000, FaultKind::Shifted(1)));
-        faults.push(takes(2, 5_000, FaultKind::Turned(1)));
-        faults.push(Fault { when: stop, what: FaultKind::Robot(eddie, FailureMode::Est1) });
-    }
-    Scenario {
-        name: "service".into(),
-        floor: Floor::new(&names, &ways),
-        robots: robots.collect(),
-        tasks: vec![task(&service::ORDER), serve],
-        faults,
-        network: Quality { loss_permille: options.loss_permille, ..Quality::OFFICE },
-        method: Method::Optimal,
-        formation: Formation::Distributed,
-        auctioneer: Some(eddie),
-        slack_permille: 500,
-        second_best: true,
-        seed: options.seed,
-    }
+    scenario.network.loss_permille = options.loss_permille;
+    Scenario { seed: options.seed, ..scenario }
 }
 
-/// A role of the service: where its cup comes from and goes to.
-fn service_role(role: &'static Role<'static>, place: usize, roles: usize, desk: Place) -> RoleSpec {
-    let last = place + 1 == roles;
-    let (take, give) = match role.name {
-        "order" => (Take::Words(desk), Give::Nobody),
-        _ => (
-            if place == 0 { Take::Object } else { Take::Partner(desk) },
-            if last { Give::Goal } else { Give::Partner(desk) },
-        ),
-    };
-    let (take_ms, give_ms) = match role.name {
-        "order" => (15_000, 0),
-        "fetch" => (10_000, 8_000),
-        _ => (10_000, 18_000), // with the talk
-    };
-    RoleSpec { role, take, give, take_ms, give_ms }
-}
-
-/// What the table of messages is counted on (Table 3.1).
+/// The scenario on which the table of messages is counted (Table 3.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Worst {
     /// As many tasks of one robot as robots.
@@ -347,7 +263,8 @@ pub fn worst(case: Worst, robots: usize) -> Scenario {
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let ways: Vec<_> = (1..=robots).map(|it| (0, it, 3_000)).collect();
     let role = |place: usize| RoleSpec {
-        role: &ANYBODY,
+        name: "carry".into(),
+        actions: vec![Needs::all(&[MOVE, GRASP_2F])],
         take: Take::Words(Place(place)),
         give: Give::Nobody,
         take_ms: 1_000,
@@ -374,6 +291,7 @@ pub fn worst(case: Worst, robots: usize) -> Scenario {
     };
     Scenario {
         name: "worst case of a round".into(),
+        skills: skills(),
         floor: Floor::new(&names, &ways),
         robots: (0..robots).map(robot).collect(),
         tasks,

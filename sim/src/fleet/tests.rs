@@ -1,12 +1,16 @@
-//! What must hold of every run.
+//! Properties of every run.
 
 use super::allocate::Allocator;
 use super::campaign::{Spread, compare};
 use super::record::{Fate, Record, Run};
 use super::scenarios::{FleetOptions, ServiceOptions, Worst, fleet, service, worst};
-use super::task::{Method, Offer, TaskSpec};
-use super::world::{Variant, World};
+use super::trace::{Trace, replay};
+use super::world::{Planted, World};
 use super::{Kind, run, run_recorded};
+use crate::fleet::bid::Offer;
+use crate::streams::Streams;
+use cotama_models::team::Reliability;
+use cotama_models::team::scenario::{Method, Scenario, TaskSpec};
 
 /// Table 3.1, worst case: 4n, n² + 3n and 3n² + 3n.
 #[test]
@@ -31,11 +35,11 @@ fn simulated_messages_are_those_of_the_table() {
     }
 }
 
-fn names(scenario: &super::task::Scenario, robots: &[usize]) -> Vec<String> {
+fn names(scenario: &cotama_models::team::scenario::Scenario, robots: &[usize]) -> Vec<String> {
     robots.iter().map(|it| scenario.robots[*it].name.clone()).collect()
 }
 
-/// Run 2 of the thesis (3.6, Fig. 3.7).
+/// Run 2 of the thesis (3.6.3, Fig. 3.7).
 #[test]
 fn disturbances_lead_to_the_auctions_and_errors_of_the_thesis() {
     let scenario = service(&ServiceOptions { disturbances: true, ..ServiceOptions::default() });
@@ -53,7 +57,7 @@ fn disturbances_lead_to_the_auctions_and_errors_of_the_thesis() {
                 ));
             }
             Record::Error { robot, class, .. } => {
-                errors.push((scenario.robots[*robot].name.as_str(), class.as_str()));
+                errors.push((scenario.robots[*robot].name.as_str(), class.name()));
             }
             _ => {}
         }
@@ -95,17 +99,16 @@ fn the_same_seed_gives_the_same_run_and_silent_rounds_change_nothing() {
     let (first, records) = run_recorded(&scenario);
     assert_eq!(run_recorded(&scenario), (first.clone(), records));
     assert_eq!(run(&scenario), first);
-    let every_round = Some(Variant::EveryRound);
-    assert_eq!(World::new(&scenario, false, every_round).run().0, first);
+    assert_eq!(World::new(&scenario, false, None).in_every_round().run().0, first);
 }
 
 /// How many of some runs with much loss are not sound.
-fn unsound(variant: Option<Variant>) -> usize {
+fn unsound(planted: Option<Planted>) -> usize {
     let unsound = (0..12).filter(|&seed| {
         let (robots, tasks, loss_permille) = (20, 40, 500);
         let options =
             FleetOptions { seed, robots, tasks, loss_permille, ..FleetOptions::default() };
-        !World::new(&fleet(&options), false, variant).run().0.is_sound()
+        !World::new(&fleet(&options), false, planted).run().0.is_sound()
     });
     unsound.count()
 }
@@ -114,8 +117,8 @@ fn unsound(variant: Option<Variant>) -> usize {
 #[test]
 fn without_leases_or_deadlines_runs_are_not_sound() {
     assert_eq!(unsound(None), 0);
-    assert!(unsound(Some(Variant::NoLease)) > 0);
-    assert!(unsound(Some(Variant::NoDeadline)) > 0);
+    assert!(unsound(Some(Planted::NoLease)) > 0);
+    assert!(unsound(Some(Planted::NoDeadline)) > 0);
 }
 
 #[test]
@@ -124,8 +127,10 @@ fn every_task_is_done_once_or_reported_over_a_thousand_seeds() {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     for (number, loss_permille) in [10, 20, 50, 100, 200].into_iter().enumerate() {
         let seed = 1_000 * number as u64;
-        let options = FleetOptions { seed, loss_permille, ..FleetOptions::default() };
-        let results = compare(&options, 200, &[Method::Optimal], threads);
+        let of = |seed, method| {
+            fleet(&FleetOptions { seed, loss_permille, method, ..FleetOptions::default() })
+        };
+        let results = compare(&of, seed, 200, &[Method::Optimal], threads);
         let (ended, unsound) = (results[0].done + results[0].reported, results[0].unsound);
         assert_eq!((ended, unsound), (200 * 200, 0), "{loss_permille}: {results:?}");
         println!("{loss_permille}: {results:?}");
@@ -134,6 +139,56 @@ fn every_task_is_done_once_or_reported_over_a_thousand_seeds() {
 
 /// One robot, two tasks of the same cost and the same use: who has waited longer comes first, and
 /// one robot does one task.
+#[test]
+fn the_trace_of_a_team_is_read_and_replayed_record_by_record() {
+    let scenarios = (0..6).map(|seed| {
+        let options = FleetOptions {
+            seed,
+            robots: 6,
+            tasks: 6,
+            failures: 2,
+            loss_permille: 50,
+            ..FleetOptions::default()
+        };
+        fleet(&options)
+    });
+    let service = ServiceOptions { disturbances: true, ..ServiceOptions::default() };
+    for scenario in scenarios.chain([self::service(&service)]) {
+        let trace = Trace::of(&scenario);
+        assert_eq!(trace.scenario().unwrap(), scenario);
+        let read = Trace::parse("t.jsonl", &trace.to_json_lines()).unwrap();
+        assert_eq!((replay(&read).unwrap(), &read), ((trace.clone(), None), &trace));
+        // A record that was changed is found, in its line.
+        for at in (0..trace.records.len() - 1).step_by(7) {
+            let mut lost = trace.clone();
+            lost.records.remove(at);
+            let (_, difference) = replay(&lost).unwrap();
+            let line = difference.map(|it| it.line).unwrap();
+            // Equal records follow each other where robots tell the same.
+            assert!(line >= at + 2, "{line} {at}");
+        }
+    }
+}
+
+/// A role of one action costs its drives and its hands, whether failures are counted in or not.
+#[test]
+fn a_robot_that_may_fail_bids_and_pledges_for_the_whole_of_its_role() {
+    let mut scenario = fleet(&FleetOptions {
+        robots: 2,
+        tasks: 2,
+        failures: 0,
+        loss_permille: 0,
+        ..FleetOptions::default()
+    });
+    for robot in &mut scenario.robots {
+        for skill in &mut robot.skills {
+            skill.reliability = Reliability::Uses { succeeded: 19, failed: 1 };
+        }
+    }
+    let run = run(&scenario);
+    assert_eq!((run.count(Fate::Done), run.awards, run.reopened), (2, vec![1, 1], 0));
+}
+
 #[test]
 fn of_two_tasks_the_one_that_waits_longer_is_given_out() {
     let mut scenario = fleet(&FleetOptions::default());
@@ -173,16 +228,59 @@ fn a_run_is_sound_if_each_task_ended_and_was_delivered_once_where_it_is_done() {
         Run { fates: vec![fate], deliveries: vec![deliveries], ..Run::default() }.is_sound()
     };
     assert_eq!([0, 1, 2].map(|it| sound(Fate::Done, it)), [false, true, false]);
-    // It was put down at its goal, and nobody heard of it.
+    // The object was put down at its goal, and nobody heard of it.
     assert_eq!([0, 1, 2].map(|it| sound(Fate::Reported, it)), [true, true, false]);
     assert_eq!([0, 1].map(|it| sound(Fate::Open, it)), [false, false]);
 }
 
 #[test]
-fn what_nobody_can_do_is_reported_after_three_auctions() {
+fn a_task_that_no_robot_can_do_is_reported_after_three_auctions() {
     let options = FleetOptions { robots: 2, tasks: 1, failures: 0, ..FleetOptions::default() };
     let mut scenario = fleet(&options);
     scenario.robots.iter_mut().for_each(|it| it.skills.clear());
     let run = run(&scenario);
     assert_eq!((&run.fates[..], run.rounds), (&[Fate::Reported][..], 3));
+}
+
+/// Whatever is read is run to its end: digits, words and whole lines of the shipped team changed.
+#[test]
+fn a_team_that_is_read_is_run_and_replayed() {
+    let file =
+        service(&ServiceOptions { disturbances: true, ..ServiceOptions::default() }).to_toml();
+    let mut stream = Streams::new(7).stream("mutants");
+    let mut run = 0;
+    for _ in 0..600 {
+        let mut lines: Vec<String> = file.lines().map(str::to_owned).collect();
+        for _ in 0..=stream.below(2) {
+            let (at, from) = (
+                stream.below(lines.len() as u64) as usize,
+                stream.below(lines.len() as u64) as usize,
+            );
+            match stream.below(3) {
+                // Another number, a value from elsewhere, or no line at all.
+                0 => {
+                    let number = 10_u64.pow(stream.below(8) as u32) * stream.below(10);
+                    let is_digit = |it: char| it.is_ascii_digit();
+                    if let Some((head, tail)) = lines[at].clone().split_once(is_digit) {
+                        lines[at] = format!("{head}{number}{}", tail.trim_start_matches(is_digit));
+                    }
+                }
+                1 => {
+                    let value = lines[from].split_once(" = ").map(|it| it.1.to_owned());
+                    if let (Some((key, _)), Some(value)) =
+                        (lines[at].clone().split_once(" = "), value)
+                    {
+                        lines[at] = format!("{key} = {value}");
+                    }
+                }
+                _ => lines[at].clear(),
+            }
+        }
+        if let Ok(scenario) = Scenario::parse("t.toml", &lines.join("\n")) {
+            run += 1;
+            let trace = Trace::of(&scenario);
+            assert_eq!(replay(&trace).unwrap(), (trace, None));
+        }
+    }
+    assert!(run > 200, "{run}");
 }

@@ -1,39 +1,43 @@
-//! A run as a file: a header, then a record a line.
+//! The trace of a team's run: `cotama/team-trace/2`, a header, then a record a line. A report and a
+//! replay need nothing else.
 
-use super::message::Kind;
-use super::record::{Fate, Record, Run};
-use super::task::Scenario;
+use super::record::{Record, Run};
+use crate::trace::{Difference, Head, TraceOf};
 use cotama_models::cotama::FailureMode;
-use serde::Serialize;
-use std::fmt::Write;
+use cotama_models::missions::MissionErrors;
+use cotama_models::team::scenario::Scenario;
+use serde::{Deserialize, Serialize};
 
 /// The form of a trace.
-pub const SCHEMA: &str = "cotama/team-trace/1";
+pub const SCHEMA: &str = "cotama/team-trace/2";
 
 /// A run with all that a report needs.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Trace {
-    /// What was run.
-    pub header: Header,
-    /// What happened.
-    pub records: Vec<Record>,
-    /// What it came to.
-    pub run: Run,
-}
+///
+/// ```
+/// use cotama_sim::fleet::{scenarios::{FleetOptions, fleet}, trace::{Trace, replay}};
+/// let options = FleetOptions { robots: 4, tasks: 3, failures: 1, ..FleetOptions::default() };
+/// let trace = Trace::of(&fleet(&options));
+/// let read = Trace::parse("team.jsonl", &trace.to_json_lines()).unwrap();
+/// assert_eq!(read, trace);
+/// assert_eq!(replay(&read).unwrap().1, None); // the same, record by record
+/// ```
+pub type Trace = TraceOf<Header, Record>;
 
-/// What was run.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+/// The settings of a run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Header {
     /// [`SCHEMA`].
-    pub schema: &'static str,
+    pub schema: String,
     /// The version of the program.
-    pub version: &'static str,
+    pub version: String,
     /// The name of the scenario.
     pub scenario: String,
-    /// The seed.
+    /// The whole team, as the text of a `cotama-team/1` file.
+    pub team: String,
+    /// The seed of the network.
     pub seed: u64,
     /// How tasks are given to robots.
-    pub allocation: &'static str,
+    pub allocation: String,
     /// How many of a thousand messages get lost.
     pub loss_permille: u16,
     /// The names of the robots.
@@ -42,32 +46,55 @@ pub struct Header {
     pub tasks: Vec<String>,
 }
 
-/// The last line.
-#[derive(Serialize)]
-struct End<'r> {
-    record: &'static str,
-    fates: &'r [Fate],
-    messages: Vec<(&'static str, u64)>,
-    messages_lost: u64,
-    busy_ms: u64,
-    cost_ms: u64,
+impl Head for Header {
+    const SCHEMA: &'static str = SCHEMA;
+
+    fn schema(&self) -> &str {
+        &self.schema
+    }
+
+    fn by_version_of(self, other: &Self) -> Self {
+        Self { version: other.version.clone(), ..self }
+    }
 }
 
 impl Trace {
     /// Runs a scenario.
     pub fn of(scenario: &Scenario) -> Self {
-        let (run, records) = super::run_recorded(scenario);
+        let (run, mut records) = super::run_recorded(scenario);
+        records.push(Record::End(Box::new(run)));
         let header = Header {
-            schema: SCHEMA,
-            version: env!("CARGO_PKG_VERSION"),
+            schema: SCHEMA.into(),
+            version: env!("CARGO_PKG_VERSION").into(),
             scenario: scenario.name.clone(),
+            team: scenario.to_toml(),
             seed: scenario.seed,
-            allocation: scenario.method.name(),
+            allocation: scenario.method.name().into(),
             loss_permille: scenario.network.loss_permille,
             robots: scenario.robots.iter().map(|it| it.name.clone()).collect(),
             tasks: scenario.tasks.iter().map(|it| it.name.clone()).collect(),
         };
-        Self { header, records, run }
+        Self { header, records, foreign: None }
+    }
+
+    /// Returns the numbers of the run.
+    ///
+    /// # Panics
+    /// Never: a trace ends with them.
+    pub fn run(&self) -> &Run {
+        match self.records.last() {
+            Some(Record::End(run)) => run,
+            _ => unreachable!("a trace ends with the numbers of its run"),
+        }
+    }
+
+    /// Reads the team of this trace.
+    ///
+    /// # Errors
+    /// All errors of its text.
+    pub fn scenario(&self) -> Result<Scenario, MissionErrors> {
+        let scenario = Scenario::parse(&self.header.scenario, &self.header.team)?;
+        Ok(Scenario { seed: self.header.seed, ..scenario })
     }
 
     /// The name of a robot.
@@ -80,34 +107,19 @@ impl Trace {
         self.header.tasks.get(task).map_or("?", |it| it)
     }
 
-    /// A fault in words: of a failure mode its row in the FMECA.
-    pub fn words(what: &str) -> String {
-        FailureMode::named(what).map_or_else(
-            || what.to_owned(),
-            |it| {
-                let row = it.description();
-                format!("{what}, {}: {}", row.component, row.failure)
-            },
-        )
+    /// A failure mode in words, as its row in the FMECA.
+    pub fn words(mode: FailureMode) -> String {
+        let row = mode.description();
+        format!("{}, {}: {}", mode.name(), row.component, row.failure)
     }
+}
 
-    /// As JSON lines.
-    pub fn to_json_lines(&self) -> String {
-        let mut text = String::new();
-        let mut line = |it: serde_json::Result<String>| {
-            let _ = writeln!(text, "{}", it.unwrap_or_default());
-        };
-        line(serde_json::to_string(&self.header));
-        self.records.iter().for_each(|it| line(serde_json::to_string(it)));
-        let run = &self.run;
-        line(serde_json::to_string(&End {
-            record: "end",
-            fates: &run.fates,
-            messages: Kind::ALL.iter().map(|it| (it.name(), run.sent(*it))).collect(),
-            messages_lost: run.lost,
-            busy_ms: run.busy_ms,
-            cost_ms: run.cost_ms,
-        }));
-        text
-    }
+/// Runs the team of a trace again; the trace of it, and the first record that differs.
+///
+/// # Errors
+/// All errors of the text of its team.
+pub fn replay(trace: &Trace) -> Result<(Trace, Option<Difference>), MissionErrors> {
+    let again = Trace::of(&trace.scenario()?);
+    let difference = trace.difference(&again);
+    Ok((again, difference))
 }

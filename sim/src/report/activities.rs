@@ -1,9 +1,9 @@
 //! Activities and their candidates: what was possible, what constraints excluded, what was chosen.
 
 use super::format::{joules, metres, milli, seconds, speed};
-use super::svg::escape;
 use super::view::{Step, View};
 use super::{MAX_CANDIDATES, MAX_ROWS};
+use cotama_core::text::markup;
 use cotama_models::missions::{Mission, PlannedActivity};
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -17,7 +17,7 @@ pub(super) fn section(view: &View<'_>) -> String {
                 "<section class=\"activities\"><h2>Activities</h2><p class=\"bad\">The mission in \
                  the trace's header cannot be read, so candidates are not known: {}</p>\
                  </section>\n",
-                escape(problem)
+                markup(problem)
             );
         }
     };
@@ -92,7 +92,7 @@ fn row(
         .skip(1)
         .take(6)
         .rev()
-        .fold(String::new(), |text, choice| format!("{text}<s>{}</s> → ", escape(choice)));
+        .fold(String::new(), |text, choice| format!("{text}<s>{}</s> → ", markup(choice)));
     let unstarted = if step.started { "" } else { " <em>not started</em>" };
     let _ = write!(
         html,
@@ -101,22 +101,22 @@ fn row(
          <span class=\"n\">{range}</span><span class=\"n\">{limit}</span>\
          <span class=\"n\">{candidates}</span>\
          <span>{earlier}<b>{}</b>{unstarted}</span></summary>\n<div class=\"inside\">\n",
-        escape(&step.id),
-        escape(objective.map_or("", |it| it.id.as_str())),
+        markup(&step.id),
+        markup(objective.map_or("", |it| it.id.as_str())),
         tasks.join(" + "),
-        escape(last)
+        markup(last)
     );
     if *budget > kept {
         *budget -= kept;
         table(html, activity, last);
     } else {
-        let _ = writeln!(html, "<p>Kept: {}</p>", escape(&activity.labels.join(", ")));
+        let _ = writeln!(html, "<p>Kept: {}</p>", markup(&activity.labels.join(", ")));
     }
     dropped(html, activity);
     html.push_str("</div></details>\n");
 }
 
-/// What is left after constraints, with costs of the whole activity.
+/// Writes the alternatives left after constraints, with costs of the whole activity.
 fn table(html: &mut String, activity: &PlannedActivity, chosen: &str) {
     html.push_str(
         "<div class=\"scroll\"><table class=\"candidates\"><thead><tr><th>Candidate</th>\
@@ -139,7 +139,7 @@ fn table(html: &mut String, activity: &PlannedActivity, chosen: &str) {
              <td class=\"n\">{}</td>\
              <td class=\"n\">{}</td><td class=\"n\">{}</td></tr>",
             mark.0,
-            escape(label),
+            markup(label),
             mark.1,
             milli(alternative.power.0.into(), 2),
             seconds(duration.into()),
@@ -150,7 +150,7 @@ fn table(html: &mut String, activity: &PlannedActivity, chosen: &str) {
     html.push_str("</tbody></table></div>\n");
 }
 
-/// What constraints excluded, by reason.
+/// Writes the alternatives that constraints excluded, by reason.
 fn dropped(html: &mut String, activity: &PlannedActivity) {
     if activity.dropped.is_empty() {
         html.push_str("<p class=\"note\">No constraint excludes a candidate.</p>\n");
@@ -169,8 +169,8 @@ fn dropped(html: &mut String, activity: &PlannedActivity) {
             html,
             "<dt>{} dropped: {}</dt><dd>{}</dd>",
             labels.len(),
-            escape(&reason.replace('`', "")),
-            escape(&labels.join(", "))
+            markup(&reason.replace('`', "")),
+            markup(&labels.join(", "))
         );
     }
     html.push_str("</dl>\n");

@@ -1,7 +1,7 @@
 //! Ticks at round numbers, and the axis along the path that all drawings share.
 
 use super::format::milli;
-use super::svg::{Svg, text_width};
+use super::svg::{SMALL, Svg, text_width};
 use super::view::View;
 
 /// The numbers from `low` to `high` that are multiples of 1, 2 or 5 times a power of ten: at most
@@ -36,6 +36,27 @@ pub(super) fn tick_label(value: i128, step: i128) -> String {
     milli(value, decimals)
 }
 
+/// The labels of ticks below an axis: the last one with the unit, and of the others those that have
+/// room.
+pub(super) fn draw_tick_labels(
+    svg: &mut Svg,
+    layout: Layout,
+    labels: Vec<(f64, String)>,
+    unit: &str,
+    y: f64,
+) {
+    let (mut free, mut unit) = (f64::MAX, unit);
+    for (x, label) in labels.into_iter().rev() {
+        let label = format!("{label}{unit}");
+        let half = text_width(&label, SMALL) / 2.0;
+        let middle = layout.within(x, half);
+        if middle + half < free {
+            svg.text("m small muted", [middle, y], &label);
+            (free, unit) = (middle - half - 3.0, "");
+        }
+    }
+}
+
 /// A width that drawings are made for. Pages show the one that suits the screen.
 #[derive(Clone, Copy)]
 pub(super) struct Layout {
@@ -43,8 +64,6 @@ pub(super) struct Layout {
     pub(super) width: f64,
     pub(super) left: f64,
     pub(super) right: f64,
-    /// The size of ordinary text.
-    pub(super) size: f64,
     /// The narrowest activity in a stop.
     pub(super) stop_width: f64,
     pub(super) x_ticks: i128,
@@ -58,7 +77,6 @@ pub(super) const WIDE: Layout = Layout {
     width: 960.0,
     left: 78.0,
     right: 62.0,
-    size: 12.0,
     stop_width: 21.0,
     x_ticks: 11,
     names_beside: true,
@@ -70,7 +88,6 @@ pub(super) const NARROW: Layout = Layout {
     width: 360.0,
     left: 38.0,
     right: 8.0,
-    size: 11.0,
     stop_width: 9.0,
     x_ticks: 5,
     names_beside: false,
@@ -81,9 +98,26 @@ impl Layout {
     pub(super) fn end(&self) -> f64 {
         self.width - self.right
     }
+
+    /// The same with room for the widest of these labels of a vertical axis on its left, or on its
+    /// right, up to a third of the width.
+    pub(super) fn with_room(self, labels: &[String], on_the_right: bool) -> Self {
+        let widths = labels.iter().map(|it| text_width(it, SMALL));
+        let room = widths.fold(0.0, f64::max).min(self.width / 3.0) + 10.0;
+        if on_the_right {
+            Self { right: self.right.max(room), ..self }
+        } else {
+            Self { left: self.left.max(room), ..self }
+        }
+    }
+
+    /// A place for the middle of a text, moved so that the text stands within the drawing.
+    pub(super) fn within(&self, middle: f64, half: f64) -> f64 {
+        middle.min(self.width - half - 1.0).max(half + 1.0)
+    }
 }
 
-/// A stop on the axis.
+/// A stop on the axis, or a wait on the way.
 ///
 /// *Invariant:* of the bands of an axis, each lies behind the one before.
 struct Band {
@@ -95,9 +129,11 @@ struct Band {
     /// The widths of all stops up to this one.
     stopped: f64,
     reached: bool,
+    /// Whether activities are done there.
+    has_activities: bool,
 }
 
-/// The axis along the path: distance, and at each stop a piece of time in between.
+/// The axis along the path: distance, and at each stop and each wait a piece of time in between.
 ///
 /// The pieces of time get the share of the width that they have of the time of the run, but at most
 /// six tenths when there is a path to show, and never less than so much for an activity.
@@ -133,14 +169,25 @@ impl Axis {
         for stop in &view.stops {
             let width = wish(stop) * shrink;
             let left = layout.left + stop.x_mm as f64 * per_mm + before;
-            let &super::view::Stop { x_mm, start_us, end_us, reached, .. } = stop;
+            let &super::view::Stop { x_mm, start_us, end_us, reached, count } = stop;
             before += width;
-            bands.push(Band { x_mm, start_us, end_us, left, width, stopped: before, reached });
+            let has_activities = count > 0;
+            bands.push(Band {
+                x_mm,
+                start_us,
+                end_us,
+                left,
+                width,
+                stopped: before,
+                reached,
+                has_activities,
+            });
         }
         Self { left: layout.left, per_mm, bands, length_mm: view.length_mm, layout }
     }
 
-    /// Where a place is drawn, before what stops there, and what stops there.
+    /// Returns the position of a place on the axis, before the band that stops there, and that
+    /// band.
     fn find(&self, x_mm: u64) -> (f64, Option<&Band>) {
         let next = self.bands.partition_point(|band| band.x_mm < x_mm);
         let stopped = next.checked_sub(1).map_or(0.0, |last| self.bands[last].stopped);
@@ -148,18 +195,18 @@ impl Axis {
         (self.left + x_mm as f64 * self.per_mm + stopped, here)
     }
 
-    /// Where a place is drawn, before what stops there.
+    /// Returns the position of a place on the axis, before the band that stops there.
     pub(super) fn before(&self, x_mm: u64) -> f64 {
         self.find(x_mm).0
     }
 
-    /// Where a place is drawn, after what stops there.
+    /// Returns the position of a place on the axis, after the band that stops there.
     pub(super) fn after(&self, x_mm: u64) -> f64 {
         let (before, band) = self.find(x_mm);
         before + band.map_or(0.0, |band| band.width)
     }
 
-    /// Where a place is drawn at a time.
+    /// Returns the position of a place on the axis at a time.
     pub(super) fn at(&self, x_mm: u64, t_us: u64) -> f64 {
         let (before, band) = self.find(x_mm);
         let within = band.map_or(0.0, |band| {
@@ -180,14 +227,14 @@ impl Axis {
     /// The durations of the stops, written with this base line.
     pub(super) fn draw_stop_labels(&self, svg: &mut Svg, y: f64) {
         let mut free = f64::MIN;
-        for band in &self.bands {
-            let middle = band.left + band.width / 2.0;
+        for band in self.bands.iter().filter(|it| it.has_activities) {
             let duration = super::format::seconds(
                 band.end_us.saturating_sub(band.start_us).saturating_add(500) / 1000,
             );
             let planned = if band.reached { "" } else { " planned" };
             let label = format!("stop {duration}{planned}");
-            let half = text_width(&label, self.layout.size - 1.0) / 2.0;
+            let half = text_width(&label, SMALL) / 2.0;
+            let middle = self.layout.within(band.left + band.width / 2.0, half);
             if middle - half > free {
                 svg.text("m small muted", [middle, y], &label);
                 free = middle + half + 6.0;
@@ -195,25 +242,30 @@ impl Axis {
         }
     }
 
+    /// Says what the axis is made of, where it is not of metres alone.
+    pub(super) fn draw_caption(&self, svg: &mut Svg, y: f64) {
+        if !self.bands.is_empty() {
+            let words = "metres of path; shaded: seconds at one place";
+            let half = text_width(words, SMALL) / 2.0;
+            let middle = f64::midpoint(self.left, self.layout.end());
+            svg.text("m small muted", [self.layout.within(middle, half), y], words);
+        }
+    }
+
     /// The axis line and its ticks, with grid lines up to `top`.
     pub(super) fn draw(&self, svg: &mut Svg, top: f64, bottom: f64) {
         let (numbers, step) = ticks(0, i128::from(self.length_mm), self.layout.x_ticks);
         svg.line("axis", [self.left, bottom], [self.layout.end(), bottom]);
-        let last = numbers.last().copied().unwrap_or(0);
+        let mut labels = Vec::new();
         for number in numbers {
-            let x_mm = u64::try_from(number).unwrap_or(0);
-            let x = self.before(x_mm);
+            let x = self.before(u64::try_from(number).unwrap_or(0));
             if number > 0 && top < bottom {
                 svg.line("grid", [x, top], [x, bottom]);
             }
             svg.line("axis", [x, bottom], [x, bottom + 4.0]);
-            let unit = if number == last { " m" } else { "" };
-            svg.text(
-                "m small muted",
-                [x, bottom + 16.0],
-                &format!("{}{unit}", tick_label(number, step)),
-            );
+            labels.push((x, tick_label(number, step)));
         }
+        draw_tick_labels(svg, self.layout, labels, " m", bottom + 16.0);
     }
 }
 

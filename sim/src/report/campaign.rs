@@ -1,17 +1,38 @@
 //! A campaign as one page: what came of the runs, why they failed, what was covered.
 
+mod pictures;
+
 use super::format::{count, grouped};
-use super::svg::escape;
 use crate::campaign::findings::Findings;
 use crate::campaign::results::{Header, Tally};
 use crate::campaign::run::Campaign;
-use crate::campaign::statistics::{Interval, clopper_pearson};
+use crate::campaign::sampling::Sampling;
+use crate::campaign::statistics::Interval;
+use cotama_core::text::markup;
 use cotama_models::cotama::FailureMode;
 use cotama_models::missions::faults::Moment;
 use std::fmt::Write;
 
 /// The most causes that are shown with their files.
 const MOST_CAUSES: usize = 60;
+
+/// How a campaign is shown.
+///
+/// ```
+/// use cotama_sim::campaign::sampling::Sampling;
+/// use cotama_sim::report::campaign::Shown;
+/// let shown = Shown { planner: "a search", sampling: Sampling::Fixed, confidence: 0.95 };
+/// assert!(shown.sampling.estimates());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shown<'s> {
+    /// The planner in words, as they follow "plans are made by".
+    pub planner: &'s str,
+    /// The sampling of the runs.
+    pub sampling: Sampling,
+    /// How often an interval holds the truth, at least: from 0 to 1.
+    pub confidence: f64,
+}
 
 /// Writes the report of a campaign as an HTML page, which needs nothing else and suits wide and
 /// narrow screens, light and dark ones, and paper.
@@ -20,9 +41,10 @@ pub fn html(
     campaign: &Campaign<'_>,
     tally: &Tally,
     findings: &Findings,
-    confidence: f64,
+    shown: &Shown<'_>,
 ) -> String {
-    let name = escape(&campaign.subject.mission().name);
+    let &Shown { sampling, confidence, .. } = shown;
+    let name = markup(campaign.subject.name());
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
@@ -31,20 +53,31 @@ pub fn html(
         include_str!("style.css"),
         include_str!("campaign.css")
     );
-    head(&mut page, header, &name, tally);
-    outcomes(&mut page, tally, confidence);
-    requirements(&mut page, campaign, tally, confidence);
-    causes(&mut page, findings);
+    let team = campaign.subject.is_team();
+    head(&mut page, header, shown, (&name, team), tally);
+    outcomes(&mut page, team, tally, sampling, confidence);
+    requirements(&mut page, campaign, tally, sampling, confidence);
+    causes(&mut page, header, findings);
+    // A team has no path on which its runs could end.
+    if !team {
+        page.push_str(&pictures::ends(tally, campaign.subject.path_length().0));
+    }
     if campaign.subject.is_supervised() {
         coverage(&mut page, tally);
     }
-    course(&mut page, tally, campaign.estimates(), confidence);
-    assumptions(&mut page, header, campaign);
+    page.push_str(&pictures::settles(tally, sampling, confidence));
+    assumptions(&mut page, header, sampling);
     page.push_str("</main>\n</body>\n</html>\n");
     page
 }
 
-fn head(page: &mut String, header: &Header, name: &str, tally: &Tally) {
+fn head(
+    page: &mut String,
+    header: &Header,
+    shown: &Shown<'_>,
+    (name, team): (&str, bool),
+    tally: &Tally,
+) {
     let (class, shape, sentence) = if tally.failing == 0 {
         ("completed", "M9 17l5 5 9-12", "No run breaks a requirement".to_owned())
     } else {
@@ -62,10 +95,12 @@ fn head(page: &mut String, header: &Header, name: &str, tally: &Tally) {
          <div class=\"outcome {class}\"><svg viewBox=\"0 0 32 32\" aria-hidden=\"true\">\
          <circle cx=\"16\" cy=\"16\" r=\"15\"/><path d=\"{shape}\"/></svg>\
          <p><strong>{sentence}</strong><span>of {}, {faults} each, drawn by the strategy \
-         {}, seed {}.</span></p></div>\n</header>\n",
+         {}, seed {}. {} {}.</span></p></div>\n</header>\n",
         count(tally.runs, "run"),
-        escape(&header.strategy),
-        header.seed
+        markup(&header.strategy),
+        header.seed,
+        if team { "Tasks are given out by the" } else { "Plans are made by" },
+        markup(shown.planner)
     );
 }
 
@@ -90,7 +125,7 @@ fn share(it: f64) -> String {
     if percent == 0.0 || percent >= 1.0 {
         return format!("{percent:.1} %");
     }
-    let enough = |it: &u8| percent * 10_f64.powi(i32::from(*it)) >= 1.0;
+    let enough = |it: &u8| percent * libm::pow(10.0, f64::from(*it)) >= 1.0;
     let digits = usize::from((1..12).find(enough).unwrap_or(12)) + 1;
     format!("{percent:.digits$} %")
 }
@@ -99,68 +134,97 @@ fn between(it: Interval) -> String {
     format!("{} to {}", share(it.low), share(it.high))
 }
 
-fn outcomes(page: &mut String, tally: &Tally, confidence: f64) {
+/// A share without an interval, as a bar.
+fn plain_bar(class: &str, share: f64) -> String {
+    format!(
+        "<div class=\"interval\"><i class=\"{class}\" style=\"width:{:.3}%\"></i></div>",
+        100.0 * share
+    )
+}
+
+fn outcomes(page: &mut String, team: bool, tally: &Tally, sampling: Sampling, confidence: f64) {
     page.push_str("<section><h2>How the runs ended</h2>\n<table class=\"campaign\">\n");
-    let names = [("completed", "good"), ("stopped safely", "warn"), ("failed", "bad")];
+    let safe = if team { "some tasks reported" } else { "stopped safely" };
+    let names = [("completed", "good"), (safe, "warn"), ("failed", "bad")];
     for ((name, class), hits) in names.into_iter().zip(tally.outcomes) {
-        let it = clopper_pearson(hits, tally.runs, confidence);
+        let part = hits as f64 / tally.runs.max(1) as f64;
+        let interval = sampling.interval(hits, tally.runs, confidence);
         let _ = writeln!(
             page,
             "<tr><th>{name}</th><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td></tr>",
-            grouped(hits.into()),
-            share(it.estimate),
-            bar(class, it)
+            count(hits, "run"),
+            share(part),
+            interval.map_or_else(|| plain_bar(class, part), |it| bar(class, it))
         );
     }
+    let thin = if sampling.estimates() {
+        format!(
+            " The thin bar is the interval that holds the share of all such runs with {} % \
+             confidence.",
+            100.0 * confidence
+        )
+    } else {
+        String::new()
+    };
     let mean = |sum: u128| sum as f64 / tally.runs.max(1) as f64;
+    let [seconds, joules] = [0, 1].map(|it| mean(tally.sums[it]) / 1_000.0);
+    let requests = if team {
+        String::new()
+    } else {
+        format!(" and {:.2} requests to the operator", mean(tally.sums[2]))
+    };
+    let between = if team { " and" } else { "," };
     let _ = write!(
         page,
-        "</table>\n<p class=\"note\">On average {:.1} s, {:.1} J and {:.2} requests to the \
-         operator. The thin bar is the interval that holds the share of all such runs with {} % \
-         confidence.</p></section>\n",
-        mean(tally.sums[0]) / 1_000.0,
-        mean(tally.sums[1]) / 1_000.0,
-        mean(tally.sums[2]),
-        100.0 * confidence
+        "</table>\n<p class=\"note\">On average {seconds:.1} s{between} {joules:.1} \
+         J{requests}.{thin}</p></section>\n"
     );
 }
 
-fn requirements(page: &mut String, campaign: &Campaign<'_>, tally: &Tally, confidence: f64) {
+fn requirements(
+    page: &mut String,
+    campaign: &Campaign<'_>,
+    tally: &Tally,
+    sampling: Sampling,
+    confidence: f64,
+) {
     page.push_str("<section><h2>What must hold</h2>\n<table class=\"campaign\">\n");
     for it in &campaign.settings.requirements {
         let name = it.to_string();
         let hits = tally.violated.get(&name).copied().unwrap_or(0);
-        let found = tally.probability(&name, confidence);
         let (class, words) = if hits == 0 {
             ("good", "holds in all runs".to_owned())
         } else {
             ("bad", format!("broken in {}", count(hits, "run")))
         };
-        let interval = if campaign.estimates() {
-            format!("probability {}", between(found))
-        } else {
-            "no probability: plans were not drawn independently".to_owned()
+        let interval = match (sampling, sampling.interval(hits, tally.runs, confidence)) {
+            (_, Some(it)) => format!("probability {}", between(it)),
+            (Sampling::Every, _) => {
+                format!("{} of all plans, exactly", share(hits as f64 / tally.runs.max(1) as f64))
+            }
+            _ => "no probability: plans were chosen, not drawn".to_owned(),
         };
         let _ = writeln!(
             page,
             "<tr><th><code>{}</code><small>{}</small></th><td class=\"{class}\">{words}\
              <small>{interval}</small></td></tr>",
-            escape(&name),
-            escape(&it.words())
+            markup(&name),
+            markup(&campaign.subject.meaning(it))
         );
     }
     page.push_str("</table></section>\n");
 }
 
-fn causes(page: &mut String, findings: &Findings) {
+fn causes(page: &mut String, header: &Header, findings: &Findings) {
     if findings.clusters.is_empty() {
         return;
     }
     let _ = write!(
         page,
         "<section><h2>Why they failed</h2>\n<p>{} made small in {}, at most {} for one. Failures \
-         with the same faults left are put together. Each file replays one of them: save it, and \
-         <code>cotama run MISSION --faults FILE</code>.</p>\n",
+         with the same faults left are put together. A file of a failure says who plans and how \
+         the run ends: it is run again so and compared, and exit code 1 says that it does not come \
+         back.</p>\n",
         count(findings.shrunk, "failing run"),
         count(findings.cost.0, "run"),
         grouped(findings.cost.1.into())
@@ -168,12 +232,14 @@ fn causes(page: &mut String, findings: &Findings) {
     for it in findings.clusters.iter().take(MOST_CAUSES) {
         let _ = writeln!(
             page,
-            "<details class=\"cause\"><summary><b>{}</b> {} <code>{}</code></summary>\
-             <pre>{}</pre></details>",
-            grouped((it.runs.len() as u64).into()),
-            escape(&it.signature),
-            escape(&it.requirement.to_string()),
-            escape(&it.scenario)
+            "<details class=\"cause\"><summary><span class=\"many\">{}</span> \
+             <span>{}</span> <span class=\"broken\">breaks <code>{}</code></span></summary>\
+             <p>{}</p><pre>{}</pre></details>",
+            count(it.runs.len() as u64, "run"),
+            markup(&it.signature),
+            markup(&it.requirement.to_string()),
+            again(it.file.as_deref(), &header.mission_source),
+            markup(&it.scenario)
         );
     }
     if findings.clusters.len() > MOST_CAUSES {
@@ -181,6 +247,25 @@ fn causes(page: &mut String, findings: &Findings) {
         let _ = writeln!(page, "<p class=\"note\">And {} more.</p>", count(more as u64, "cause"));
     }
     page.push_str("</section>\n");
+}
+
+/// The command that runs a failure again.
+fn again(file: Option<&str>, mission: &str) -> String {
+    let code = |line: String| format!("<code>{}</code>", markup(&line));
+    if let Some(file) = file {
+        return code(format!("cotama replay {}", shell_word(file)));
+    }
+    let line = format!("cotama replay failure.toml --mission {}", shell_word(mission));
+    format!("Saved as <code>failure.toml</code>: {}", code(line))
+}
+
+/// A word as a shell takes it.
+fn shell_word(word: &str) -> String {
+    let safe = |it: char| it.is_alphanumeric() || "-_./:=+@,".contains(it);
+    if !word.is_empty() && word.chars().all(safe) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
 }
 
 /// Rows of the FMECA by the place of the local supervisor, as a heat map.
@@ -203,7 +288,7 @@ fn coverage(page: &mut String, tally: &Tally) {
             let cell = tally.cells.get(&format!("{}@{state}", mode.name()));
             let (met, failing) = cell.copied().unwrap_or((0, 0));
             empty += u64::from(met == 0);
-            // Its root, so that rare cells are seen beside frequent ones.
+            // The shade is the root of the share, so that rare cells are seen beside frequent ones.
             let shade = (met as f64 / most).sqrt();
             let class = if failing > 0 { "hot" } else { "met" };
             let title = format!("{met} runs, {failing} failing");
@@ -223,30 +308,7 @@ fn coverage(page: &mut String, tally: &Tally) {
     );
 }
 
-fn course(page: &mut String, tally: &Tally, estimates: bool, confidence: f64) {
-    if !estimates {
-        return;
-    }
-    page.push_str(
-        "<section><h2>How the estimate settles</h2>\n<table class=\"campaign\">\n<tr><th>runs</th>\
-         <th class=\"n\">failing</th><th>probability of failure</th></tr>\n",
-    );
-    let last = (tally.runs, tally.failing);
-    let more = tally.course.last() != Some(&last);
-    for (runs, failing) in tally.course.iter().copied().chain(more.then_some(last)) {
-        let it = clopper_pearson(failing, runs, confidence);
-        let _ = writeln!(
-            page,
-            "<tr><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td></tr>",
-            grouped(runs.into()),
-            grouped(failing.into()),
-            between(it)
-        );
-    }
-    page.push_str("</table></section>\n");
-}
-
-fn assumptions(page: &mut String, header: &Header, campaign: &Campaign<'_>) {
+fn assumptions(page: &mut String, header: &Header, sampling: Sampling) {
     let rates = if header.rates == "fmeca" {
         "Rows of the FMECA are as likely as their mean times between failures say, most of which \
          are assumed; that one fails at all is given."
@@ -254,17 +316,28 @@ fn assumptions(page: &mut String, header: &Header, campaign: &Campaign<'_>) {
         "All kinds of faults are equally likely, which no robot's are: a share of failures is one \
          of plans drawn so, and no rate of failures in use."
     };
-    let drawn = if campaign.estimates() {
-        "Plans are drawn independently of each other, so the intervals are exact (Clopper and \
-         Pearson)."
-    } else {
-        "Plans are not drawn independently, so shares estimate nothing: they say what was found."
+    let drawn = match sampling {
+        Sampling::Fixed => {
+            "Plans are drawn independently of each other, so the intervals are exact (Clopper and \
+             Pearson)."
+        }
+        Sampling::Stopped => {
+            "Plans are drawn independently of each other until a test is decided; the intervals \
+             hold whenever that is (Robbins), and are wider than those of a fixed number of runs."
+        }
+        Sampling::Every => {
+            "Every plan of the strategy's timeline was run: shares are exact, and need no interval."
+        }
+        Sampling::Chosen => {
+            "Plans are chosen, not drawn independently, so shares estimate nothing: they say what \
+             was found."
+        }
     };
     let _ = write!(
         page,
         "<section><h2>What this rests on</h2>\n<p>{rates} {drawn} What faults do to the robot is \
          the simulator's model of them. Version {}, policy {}.</p></section>\n",
-        escape(&header.version),
-        escape(&header.policy)
+        markup(&header.version),
+        markup(&header.policy)
     );
 }

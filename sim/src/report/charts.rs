@@ -1,12 +1,14 @@
 //! Speed, power and margins along the run, over the axis of the strip.
 
 use super::axis::{Axis, Layout, NARROW, WIDE, tick_label, ticks};
+use super::events::power_error;
 use super::format::milli;
 use super::series::{Point, Scale, below_zero, line, steps, thinned};
 use super::strip::{draw_end, draw_pins};
-use super::svg::{Svg, text_width};
+use super::svg::{SMALL, Svg, text_box, text_width};
 use super::view::View;
 use crate::trace::{Margins, Record};
+use cotama_core::text::markup;
 use std::fmt::Write;
 
 /// A value somewhere and at some time: place in mm, time in µs, value in thousandths.
@@ -16,7 +18,7 @@ type Measured = (u64, u64, i64);
 struct Chart<'c> {
     title: &'c str,
     unit: &'c str,
-    note: &'c str,
+    note: String,
     height: f64,
     /// Values that hold until the next one, with the class of their line.
     held: Vec<(&'c str, Vec<Measured>)>,
@@ -29,8 +31,41 @@ struct Chart<'c> {
 const KEY_PLANNED: &str = "<span class=\"key\"><i class=\"swatch planned\"></i>planned</span> \
                            <span class=\"key\"><i class=\"swatch real\"></i>real</span>";
 
+/// The height of what stands above a chart.
+const TOP: f64 = 20.0;
+
+/// The wide and the narrow layout of a run: every drawing over the axis of its path has the same,
+/// with room for the numbers of all charts.
+pub(super) fn layouts(view: &View<'_>) -> [Layout; 2] {
+    let labels: Vec<String> = charts(view).iter().flat_map(Chart::numbers).collect();
+    [WIDE, NARROW].map(|it| it.with_room(&labels, false))
+}
+
+impl Chart<'_> {
+    /// Returns what is written beside the vertical axis.
+    fn numbers(&self) -> Vec<String> {
+        let scale = scale(self, TOP, TOP + self.height);
+        let (numbers, step) = ticks(scale.low, scale.high, (self.height / 28.0) as i128);
+        numbers.into_iter().map(|it| tick_label(it, step)).collect()
+    }
+}
+
+/// Says how far the real power was from the model, zone by zone; empty where it was not.
+fn power_note(view: &View<'_>) -> String {
+    let errors: Vec<String> = view.power_errors().iter().map(power_error).collect();
+    if errors.is_empty() {
+        return String::new();
+    }
+    let shown: Vec<&str> = errors.iter().take(6).map(String::as_str).collect();
+    let more = if errors.len() > 6 { ", …" } else { "" };
+    format!(
+        " · real against the model: {}{more} (<code>power_error_permille</code>)",
+        markup(&shown.join(", "))
+    )
+}
+
 /// All four charts.
-pub(super) fn section(view: &View<'_>) -> String {
+fn charts<'v>(view: &'v View<'_>) -> [Chart<'v>; 4] {
     let sampled = |value: fn(&crate::trace::Sample) -> u64| -> Vec<Measured> {
         let samples = view.samples.iter();
         samples.map(|it| (it.x_mm, it.t_us, i64::try_from(value(it)).unwrap_or(i64::MAX))).collect()
@@ -38,16 +73,16 @@ pub(super) fn section(view: &View<'_>) -> String {
     let empty = || Chart {
         title: "",
         unit: "",
-        note: "",
+        note: String::new(),
         height: 0.0,
         held: Vec::new(),
         margin: Vec::new(),
         replans: Vec::new(),
     };
-    let margin = |title, unit, note, value: fn(&Margins) -> i64| Chart {
+    let margin = |title, unit, value: fn(&Margins) -> i64| Chart {
         title,
         unit,
-        note,
+        note: "limit, less used, less planned rest".into(),
         height: 150.0,
         margin: margins(view, value),
         replans: replans(view, value),
@@ -59,11 +94,11 @@ pub(super) fn section(view: &View<'_>) -> String {
     } else {
         ""
     };
-    let charts = [
+    [
         Chart {
             title: "Speed",
             unit: "m/s",
-            note: "as planned; a stop is 0",
+            note: "as planned; 0 where the robot stands".into(),
             height: 96.0,
             held: vec![("real", sampled(|it| it.speed_mm_s))],
             ..empty()
@@ -71,7 +106,7 @@ pub(super) fn section(view: &View<'_>) -> String {
         Chart {
             title: "Power",
             unit: "W",
-            note: &format!("{KEY_PLANNED}{cut}"),
+            note: format!("{KEY_PLANNED}{}{cut}", power_note(view)),
             height: 120.0,
             held: vec![
                 ("planned", sampled(|it| it.planned_power_mw)),
@@ -79,16 +114,21 @@ pub(super) fn section(view: &View<'_>) -> String {
             ],
             ..empty()
         },
-        margin("Duration margin", "s", "limit, less used, less planned rest", |it| it.duration_ms),
-        margin("Energy margin", "J", "limit, less used, less planned rest", |it| it.energy_mj),
-    ];
+        margin("Duration margin", "s", |it| it.duration_ms),
+        margin("Energy margin", "J", |it| it.energy_mj),
+    ]
+}
+
+/// The charts, one below the other.
+pub(super) fn section(view: &View<'_>) -> String {
     let mut html = String::from(
         "<section class=\"charts\"><h2>Along the way</h2>\n<p class=\"note\">The axis is the one \
-         of the corridor: metres of path and, in the shaded bands, the seconds of a stop. A \
-         hindrance takes time at one place, so margins drop there in a step. Vertical lines are \
-         the numbered replans.</p>\n",
+         of the corridor: metres of path and, in the shaded bands, the seconds of a stop or of a \
+         wait. What makes the way longer takes time at one place as well. Vertical lines are the \
+         numbered replans.</p>\n",
     );
-    for chart in &charts {
+    let [wide, narrow] = layouts(view);
+    for chart in &charts(view) {
         let _ = write!(
             html,
             "<figure><figcaption><h3>{} <span class=\"unit\">{}</span></h3><span class=\"note\">{}\
@@ -97,8 +137,8 @@ pub(super) fn section(view: &View<'_>) -> String {
             chart.title,
             chart.unit,
             chart.note,
-            draw(chart, view, WIDE),
-            draw(chart, view, NARROW)
+            draw(chart, view, wide),
+            draw(chart, view, narrow)
         );
     }
     html.push_str("</section>\n");
@@ -118,7 +158,7 @@ fn margins(view: &View<'_>, value: fn(&Margins) -> i64) -> Vec<Measured> {
             };
             Some((record, margins))
         })
-        // What was not planned to the end has no margin at the end.
+        // A plan that was not carried out to the end has no margin there.
         .filter(|(record, _)| match record {
             Record::End(it) => it.outcome != crate::run::Outcome::Safe,
             _ => true,
@@ -161,7 +201,7 @@ fn scale(chart: &Chart<'_>, top: f64, bottom: f64) -> Scale {
 fn draw(chart: &Chart<'_>, view: &View<'_>, layout: Layout) -> String {
     let mut svg = Svg::new();
     let axis = Axis::new(view, layout);
-    let top = 20.0;
+    let top = TOP;
     let bottom = top + chart.height;
     let scale = scale(chart, top, bottom);
     axis.draw_stops(&mut svg, top, bottom);
@@ -181,17 +221,23 @@ fn draw(chart: &Chart<'_>, view: &View<'_>, layout: Layout) -> String {
     let points = placed(&chart.margin, &axis);
     svg.path("below", &below_zero(&points, scale));
     svg.path("line real", &line(&points, scale));
-    draw_replans(&mut svg, chart, &axis, scale, layout);
+    let mut taken = Vec::new();
     if let (Some(&(_, _, value)), Some(&(x, _))) = (chart.margin.last(), points.last()) {
         let text = format!("{} {}", milli(value.into(), 1), chart.unit);
         let y = scale.y(value.into());
         svg.circle("after", [x, y], 3.0);
-        if layout.names_beside && x + 70.0 > layout.end() {
-            svg.text("small strong halo", [x + 8.0, y + 4.0], &text);
+        let width = text_width(&text, SMALL) * 1.1;
+        let (class, place) = if x + 8.0 + width < layout.width && x + 70.0 > layout.end() {
+            ("small strong halo", [x + 8.0, y + 4.0])
         } else {
-            svg.text("e small strong halo", [(x + 4.0).min(layout.end()), y - 8.0], &text);
-        }
+            // Above the line, and clear of the numbers on the left.
+            let end = (x + 4.0).max(layout.left + width + 2.0).min(layout.width - 1.0);
+            ("e small strong halo", [end, y - 8.0])
+        };
+        svg.text(class, place, &text);
+        taken.push(text_box(class, place, &text));
     }
+    draw_replans(&mut svg, chart, &axis, scale, layout, taken);
     if chart.margin.is_empty() && chart.held.iter().all(|(_, points)| points.is_empty()) {
         svg.text(
             "m small muted",
@@ -200,11 +246,21 @@ fn draw(chart: &Chart<'_>, view: &View<'_>, layout: Layout) -> String {
         );
     }
     let label = format!("{} in {} along the path", chart.title, chart.unit);
-    svg.finish(layout.class, [layout.width, bottom + 22.0], &label)
+    axis.draw_caption(&mut svg, bottom + 30.0);
+    let end = bottom + if view.stops.is_empty() { 22.0 } else { 36.0 };
+    svg.finish(layout.class, [layout.width, end], &label)
 }
 
-/// The margin before (hollow) and after (full) each replan; the first one below zero is written.
-fn draw_replans(svg: &mut Svg, chart: &Chart<'_>, axis: &Axis, scale: Scale, layout: Layout) {
+/// The margin before (hollow) and after (full) each replan; those below zero are written where
+/// there is room. The list of replans has them all.
+fn draw_replans(
+    svg: &mut Svg,
+    chart: &Chart<'_>,
+    axis: &Axis,
+    scale: Scale,
+    layout: Layout,
+    mut taken: Vec<[f64; 4]>,
+) {
     for &(x_mm, t_us, before, after) in &chart.replans {
         let x = axis.at(x_mm, t_us);
         let text = |value: i64| format!("{} {}", milli(value.into(), 1), chart.unit);
@@ -214,13 +270,21 @@ fn draw_replans(svg: &mut Svg, chart: &Chart<'_>, axis: &Axis, scale: Scale, lay
             svg.circle("after", [x, scale.y(after.into())], 3.0);
         });
         if before < 0 {
-            let width = text_width(&text(before), layout.size - 1.0) + 7.0;
             let (y, zero) = (scale.y(before.into()), scale.y(0));
             let y = if y - zero < 12.0 { zero + 14.0 } else { y + 4.0 };
-            if x - width > layout.left {
-                svg.text("e small bad halo", [x - 7.0, y], &text(before));
-            } else {
-                svg.text("small bad halo", [x + 7.0, y], &text(before));
+            let sides = [("e small bad halo", x - 7.0), ("small bad halo", x + 7.0)];
+            let free = sides.into_iter().find_map(|(class, x)| {
+                let place = text_box(class, [x, y], &text(before));
+                let [left, top, right, bottom] = place;
+                let inside = left > layout.left && right < layout.width;
+                let clear = taken
+                    .iter()
+                    .all(|it| right < it[0] || it[2] < left || bottom < it[1] || it[3] < top);
+                (inside && clear).then_some((class, x, place))
+            });
+            if let Some((class, x, place)) = free {
+                svg.text(class, [x, y], &text(before));
+                taken.push(place);
             }
         }
     }

@@ -3,10 +3,10 @@
 use super::MAX_POINTS;
 use super::events::capital;
 use super::format::{metres, moment, seconds};
-use super::svg::escape;
 use super::view::View;
 use crate::supervised::story::{Chain, Point, Rung, What};
 use crate::trace::supervised::Fired;
+use cotama_core::text::markup;
 use std::fmt::Write;
 
 /// The table of decisions and the ladder.
@@ -47,13 +47,13 @@ fn row(html: &mut String, point: &Point<'_>) {
         "<tbody><tr class=\"point\"><th><b class=\"pin point\">{}</b></th><td colspan=\"8\"><b>{}\
          </b> <span class=\"where\">at {}, {}",
         point.number,
-        escape(&capital(&point.title())),
+        markup(&capital(&point.title())),
         metres(point.x_mm),
         moment(point.t_us)
     );
     let Some(chain) = point.chain() else {
         let done = point.done().map_or_else(String::new, |it| format!(": {it}"));
-        let _ = writeln!(html, "{}</span></td></tr></tbody>", escape(&done));
+        let _ = writeln!(html, "{}</span></td></tr></tbody>", markup(&done));
         return;
     };
     html.push_str("</span></td></tr>\n<tr><td></td>");
@@ -68,13 +68,13 @@ fn row(html: &mut String, point: &Point<'_>) {
             let _ = write!(
                 html,
                 "<td>{} <small>{}</small></td><td>{}</td><td>{}</td><td>{} → {}</td><td>{}</td>",
-                escape(&it.flags.join(", ")),
+                markup(&it.flags.join(", ")),
                 since(it.t_us),
-                escape(&candidates),
-                escape(it.report.as_deref().unwrap_or("–")),
-                escape(&it.severity),
-                escape(&it.by_severity),
-                escape(&it.by_availability)
+                markup(&candidates),
+                markup(it.report.as_deref().unwrap_or("–")),
+                it.severity.name(),
+                it.by_severity.name(),
+                it.by_availability.name()
             );
         }
     }
@@ -89,8 +89,8 @@ fn event(html: &mut String, chain: &Chain<'_>, since: &impl Fn(u64) -> String) {
         None => html.push_str("<td class=\"muted\">none</td>"),
         Some(it) => {
             let by = it.transition.as_ref().map_or_else(String::new, |by| format!(", {by}"));
-            let event = it.event.as_deref().unwrap_or(&it.decision);
-            let (event, by, since) = (escape(event), escape(&by), since(it.t_us));
+            let event = it.event.as_deref().unwrap_or(it.decision.name());
+            let (event, by, since) = (markup(event), markup(&by), since(it.t_us));
             let _ = write!(html, "<td><b>{event}</b> <small>{since}{by}</small></td>");
         }
     }
@@ -101,7 +101,7 @@ fn event(html: &mut String, chain: &Chain<'_>, since: &impl Fn(u64) -> String) {
     let line = |it: &&'_ Fired| format!("{} {}", it.net, it.line());
     let fired: Vec<_> = chain.reaction.iter().map(line).collect();
     let _ =
-        write!(html, "<td>{} <small>{}</small></td>", escape(&fired.join(", ")), since(first.t_us));
+        write!(html, "<td>{} <small>{}</small></td>", markup(&fired.join(", ")), since(first.t_us));
 }
 
 /// How far up each reaction went, the mission above and a parameter below.
@@ -124,7 +124,7 @@ fn ladder(html: &mut String, points: &[Point<'_>]) {
                     html,
                     "<td class=\"step {}\">{}</td>",
                     rung.name(),
-                    escape(&step(point, rung))
+                    markup(&step(point, rung))
                 );
             } else {
                 html.push_str("<td></td>");

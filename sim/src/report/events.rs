@@ -1,11 +1,13 @@
-//! What happened, in the order of time.
+//! The events, in the order of time.
 
 use super::MAX_ROWS;
 use super::format::{metres, moment, seconds, trimmed};
-use super::svg::{escape, fixed};
+use super::svg::fixed;
 use super::view::View;
 use crate::run::Outcome;
 use crate::trace::{Event, Occurrence, Record};
+use cotama_core::text::markup;
+use cotama_models::missions::Zone;
 use std::fmt::Write;
 
 /// The shape of a kind of event, about 12 wide; shapes differ so that colour is not needed.
@@ -53,12 +55,18 @@ pub(super) fn capital(text: &str) -> String {
     chars.next().map_or(String::new(), |first| first.to_uppercase().chain(chars).collect())
 }
 
-/// A row of the list: what it is, its mark, its words, and the time it took.
+/// A row of the list: its mark, its words, and the time it took.
 struct Row {
     mark: String,
     words: String,
     lost: String,
-    origin: String,
+}
+
+/// Says how far the real power of a zone is from that of the model: `H2 −7.5 %`.
+pub(super) fn power_error((zone, permille): &(&Zone, i32)) -> String {
+    let sign = if *permille < 0 { '\u{2212}' } else { '+' };
+    let (whole, tenth) = (permille.unsigned_abs() / 10, permille.unsigned_abs() % 10);
+    format!("{} {sign}{whole}.{tenth} %", zone.id)
 }
 
 fn row(record: &Record, plans: &mut u64) -> Option<Row> {
@@ -73,51 +81,54 @@ fn row(record: &Record, plans: &mut u64) -> Option<Row> {
     match record {
         Record::Event(it) => {
             let (kind, _, words) = short(it);
-            let origin = it.random.as_ref().map_or(String::new(), |name| format!("random: {name}"));
             let lost = moment(it.lost_us);
-            let words = words.trim_end_matches(&format!(", {lost} lost"));
-            Some(Row { mark: mark(kind), words: capital(words), lost, origin })
+            let words = capital(words.trim_end_matches(&format!(", {lost} lost")));
+            let words = match &it.random {
+                Some(name) => format!("{words} (drawn: {name})"),
+                None => words,
+            };
+            let lost = if it.lost_us == 0 { none() } else { lost };
+            Some(Row { mark: mark(kind), words, lost })
         }
         Record::Plan(it) => {
             let number = *plans;
             *plans += 1;
             let mark = format!("<b class=\"pin\">{number}</b>");
             let words = format!("Plan {number}: {}", it.cause);
-            Some(Row { mark, words, lost: none(), origin: none() })
+            Some(Row { mark, words, lost: none() })
         }
         Record::Failure(it) => {
             let words = format!("Failure {}: {}", it.failure, it.mode);
-            Some(Row { mark: mark("fault"), words, lost: none(), origin: none() })
+            Some(Row { mark: mark("fault"), words, lost: none() })
         }
         Record::Diagnosis(it) => {
             let words = format!("Found: {}; {}", it.flags.join(", "), it.candidates.join(" or "));
-            Some(Row { mark: none(), words, lost: none(), origin: none() })
+            Some(Row { mark: none(), words, lost: none() })
         }
         Record::Decision(it) => {
-            let by = it.transition.as_deref().unwrap_or("record");
-            let words = format!("Decided: {}", it.event.as_deref().unwrap_or(&it.decision));
-            Some(Row { mark: none(), words, lost: none(), origin: by.into() })
+            let what = it.event.as_deref().unwrap_or(it.decision.name());
+            let words = match &it.transition {
+                Some(rule) => format!("Decided: {what}, by the rule {rule}"),
+                None => format!("Decided: {what}, which is recorded only"),
+            };
+            Some(Row { mark: none(), words, lost: none() })
         }
         Record::Told(it) if !it.event.starts_with("faults.") => {
-            let words = format!("Told: {}", it.event);
-            Some(Row { mark: none(), words, lost: none(), origin: format!("round {}", it.round) })
+            let words = format!("Told: {}, in round {}", it.event, it.round);
+            Some(Row { mark: none(), words, lost: none() })
         }
         Record::Configuration(it) => {
-            let words = it.configuration.as_deref().unwrap_or("nothing");
-            Some(Row {
-                mark: none(),
-                words: format!("Runs: {words}"),
-                lost: none(),
-                origin: it.mode.clone(),
-            })
+            let runs = it.configuration.as_deref().unwrap_or("nothing");
+            let words = format!("Runs: {runs}, mode {}", it.mode.name());
+            Some(Row { mark: none(), words, lost: none() })
         }
         Record::Request(it) => {
             let words = format!("Operator asked: {}; {}", it.cause, it.reason);
-            Some(Row { mark: "<b class=\"bad\">?</b>".into(), words, lost: none(), origin: none() })
+            Some(Row { mark: "<b class=\"bad\">?</b>".into(), words, lost: none() })
         }
         Record::Abort(it) => {
             let words = format!("No plan is left: {}; {}", it.cause, it.reason);
-            Some(Row { mark: "<b class=\"bad\">?</b>".into(), words, lost: none(), origin: none() })
+            Some(Row { mark: "<b class=\"bad\">?</b>".into(), words, lost: none() })
         }
         Record::End(it) => {
             let mark = if it.outcome == Outcome::Completed {
@@ -127,42 +138,54 @@ fn row(record: &Record, plans: &mut u64) -> Option<Row> {
             };
             let reason = it.reason.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
             let words = format!("End of the run, {}{reason}", it.outcome.name());
-            Some(Row { mark: mark.into(), words, lost: none(), origin: none() })
+            Some(Row { mark: mark.into(), words, lost: none() })
         }
         _ => None,
     }
 }
 
-/// The list of events, with the plans between them.
+/// The list of events, with the plans between them, and with the zones where the real power is
+/// another than that of the model.
 pub(super) fn section(view: &View<'_>) -> String {
-    let mut html = String::from(
-        "<section class=\"events\"><h2>Events</h2>\n<div class=\"scroll\"><table><thead><tr><th>\
-         </th>\
-         <th class=\"n\">Time</th><th class=\"n\">Place</th><th>What</th><th class=\"n\">Time lost\
-         </th>\
-         <th></th></tr></thead>\n<tbody>\n",
+    let takes_time = view.events.iter().any(|it| it.lost_us > 0);
+    let lost = if takes_time { "<th class=\"n\">Time lost</th>" } else { "" };
+    let mut html = format!(
+        "<section class=\"events\"><h2>Events</h2>\n<div class=\"scroll\"><table><thead><tr>\
+         <th aria-label=\"mark\"></th><th class=\"n\">Time</th><th class=\"n\">Place</th>\
+         <th>What</th>{lost}</tr></thead>\n<tbody>\n",
     );
-    let mut plans = 0;
-    let mut shown = 0;
-    let mut left_out = 0;
+    let mut add = |row: &Row, t_us: u64, x_mm: u64| {
+        let lost =
+            if takes_time { format!("<td class=\"n\">{}</td>", row.lost) } else { String::new() };
+        let _ = writeln!(
+            html,
+            "<tr><td class=\"c\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td>\
+             {lost}</tr>",
+            row.mark,
+            moment(t_us),
+            metres(x_mm),
+            markup(&row.words)
+        );
+    };
+    let (mut plans, mut shown, mut left_out) = (0, 0, 0);
+    let errors = view.power_errors();
+    let mut errors = errors.iter().take(MAX_ROWS).peekable();
     for record in &view.trace.records {
+        while let Some(error) = errors.next_if(|it| it.0.x_start.0 <= record.x_mm()) {
+            let words = format!(
+                "Real power against the model: {} (power_error_permille)",
+                power_error(error)
+            );
+            let row = Row { mark: String::new(), words, lost: String::new() };
+            add(&row, record.t_us(), record.x_mm());
+        }
         let Some(row) = row(record, &mut plans) else { continue };
         if shown >= MAX_ROWS && !matches!(record, Record::End(_)) {
             left_out += 1;
             continue;
         }
         shown += 1;
-        let _ = writeln!(
-            html,
-            "<tr><td class=\"c\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td>\
-             <td class=\"n\">{}</td><td class=\"muted\">{}</td></tr>",
-            row.mark,
-            moment(record.t_us()),
-            metres(record.x_mm()),
-            escape(&row.words),
-            row.lost,
-            escape(&row.origin)
-        );
+        add(&row, record.t_us(), record.x_mm());
     }
     html.push_str("</tbody></table></div>\n");
     if left_out > 0 {
@@ -172,7 +195,8 @@ pub(super) fn section(view: &View<'_>) -> String {
     html
 }
 
-/// What happened between two plans: `4 obstacles (10.8 s lost)`, and so on; empty if nothing.
+/// Returns a summary of the events between two plans: `4 obstacles (10.8 s lost)`, and so on; empty
+/// if there are none.
 pub(super) fn summary(events: &[&Event]) -> String {
     let kinds = [
         ("obstacle", "obstacle"),

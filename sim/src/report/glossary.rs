@@ -1,10 +1,10 @@
-//! What the abbreviations of a page mean: only those that occur on it.
+//! The abbreviations on a page, with their meanings.
 
 use super::format::{metres, speed};
 use super::plans::{needs, task_name};
 use super::strip::demands;
-use super::svg::escape;
 use super::view::View;
+use cotama_core::text::markup;
 use cotama_models::cotama::{Configuration, FailureMode, Module};
 use cotama_models::missions::Mission;
 use std::collections::HashSet;
@@ -40,8 +40,8 @@ pub(super) fn section(view: &View<'_>, page: &str) -> String {
         let _ = writeln!(
             html,
             "<div><dt>{}</dt><dd>{}</dd></div>",
-            escape(name),
-            escape(meaning.trim_end_matches('.'))
+            markup(name),
+            markup(meaning.trim_end_matches('.'))
         );
     };
     let mut one = |name: &str, meaning: &dyn Fn() -> String| {
@@ -85,7 +85,7 @@ fn own(mission: &Mission, view: &View<'_>, add: &mut Add<'_>) {
     }
 }
 
-/// What supervisors speak of: failures, configurations, modules, nets and their transitions.
+/// Adds the terms of supervisors: failures, configurations, modules, nets and their transitions.
 fn supervised(view: &View<'_>, add: &mut Add<'_>) {
     for mode in FailureMode::ALL {
         let text = mode.description();

@@ -1,10 +1,11 @@
 //! The head of the page: how it ended, and the figures that matter.
 
 use super::format::{clock, count, grouped, joules, metres, milli, percent, seconds, watt_hours};
-use super::svg::{escape, fixed};
+use super::svg::fixed;
 use super::view::View;
 use crate::run::Outcome;
 use crate::trace::{Header, Margins, RunFaults, Used};
+use cotama_core::text::markup;
 use std::fmt::Write;
 
 /// The name of the mission, or of its source.
@@ -112,8 +113,8 @@ pub(super) fn section(view: &View<'_>) -> String {
          <svg viewBox=\"0 0 32 32\" aria-hidden=\"true\"><circle cx=\"16\" cy=\"16\" r=\"15\"/>\
          <path d=\"{shape}\"/>\
          </svg><p><strong>{word}</strong><span>{}</span></p></div>\n",
-        escape(name(view)),
-        escape(&sentence(view))
+        markup(name(view)),
+        markup(&sentence(view))
     );
     html.push_str(&super::story::section(view));
     let used = view.end.map_or_else(
@@ -170,7 +171,7 @@ pub(super) fn section(view: &View<'_>) -> String {
         ("Seed", header.options.seed.to_string()),
     ];
     for (name, value) in facts {
-        let _ = writeln!(html, "<div><dt>{name}</dt><dd>{}</dd></div>", escape(&value));
+        let _ = writeln!(html, "<div><dt>{name}</dt><dd>{}</dd></div>", markup(&value));
     }
     html.push_str("</dl>\n</header>\n");
     html

@@ -7,10 +7,9 @@
 
 #![allow(clippy::cast_precision_loss)] // places on a page need no more than 52 bits
 
-use crate::options::{Aim, Planner};
 use crate::trace::{Header, Trace};
+use cotama_core::text::markup;
 use std::fmt::Write;
-use svg::escape;
 use view::View;
 
 mod activities;
@@ -58,21 +57,28 @@ const MAX_CANDIDATES: usize = 2_000;
 /// the page says so. A mission that cannot be read leaves out what only it tells.
 ///
 /// ```
-/// use cotama_models::missions::embedded;
+/// use cotama_models::missions::{Mission, embedded};
 /// use cotama_sim::{options::Options, report, trace::Trace};
 /// let patrol = embedded::mission("patrol").unwrap();
-/// let (trace, _) = Trace::record("patrol", patrol.text, &Options::default()).unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let (trace, _) = Trace::record(&mission, &Options::default()).unwrap();
 /// let page = report::html(&trace);
 /// assert!(page.contains("All 17 activities are done, within both limits, after 3 replans."));
 /// ```
 pub fn html(trace: &Trace) -> String {
+    html_beside(trace, None)
+}
+
+/// The same beside the trace that was written to this file, which the page names as a word of a
+/// command.
+pub fn html_beside(trace: &Trace, written: Option<&str>) -> String {
     let view = View::new(trace);
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta name=\"color-scheme\" content=\"light dark\">\n<title>{}: mission report</title>\n\
          <style>\n{}</style>\n</head>\n<body>\n<main>\n",
-        escape(headline::name(&view)),
+        markup(headline::name(&view)),
         include_str!("style.css")
     );
     page.push_str(&headline::section(&view));
@@ -90,28 +96,12 @@ pub fn html(trace: &Trace) -> String {
     let body = page.find("<body>").unwrap_or_default();
     let glossary = glossary::section(&view, &page[body..]);
     page.push_str(&glossary);
-    footer(&mut page, &trace.header);
+    footer(&mut page, &trace.header, written);
     page.push_str("</main>\n</body>\n</html>\n");
     page
 }
 
-fn planner(planner: Planner) -> String {
-    match planner {
-        Planner::Panorama => "the paper’s rule".into(),
-        Planner::PanoramaThenExact { steps } => {
-            format!("the paper’s rule, then a complete search of at most {steps} steps")
-        }
-        Planner::Exact { aim, steps } => {
-            let aim = match aim {
-                Aim::Quality => "the most quality",
-                Aim::MinEnergy => "the least energy",
-            };
-            format!("a complete search for {aim}, of at most {steps} steps")
-        }
-    }
-}
-
-fn footer(page: &mut String, header: &Header) {
+fn footer(page: &mut String, header: &Header, written: Option<&str>) {
     let options = &header.options;
     let upward = options.upward.map_or("never".into(), |it| {
         format!(
@@ -129,15 +119,22 @@ fn footer(page: &mut String, header: &Header) {
         ("Seed", options.seed.to_string()),
         ("Faults", headline::faults(header)),
         ("Monitor period", format::seconds(options.monitor_period_ms)),
-        ("Planner", planner(options.allocator)),
+        ("Planner", options.allocator.words()),
         ("Better plans", upward),
     ];
     page.push_str("<footer><h2>How it was run</h2>\n<dl>\n");
     for (name, value) in rows {
-        let _ = writeln!(page, "<div><dt>{name}</dt><dd>{}</dd></div>", escape(&value));
+        let _ = writeln!(page, "<div><dt>{name}</dt><dd>{}</dd></div>", markup(&value));
     }
-    page.push_str(
-        "</dl>\n<p>The same run again, compared byte for byte: <code>cotama replay trace.jsonl\
-         </code></p>\n</footer>\n",
-    );
+    let again = match written {
+        Some(file) => format!(
+            "The same run again, compared record by record: <code>cotama replay {}</code>",
+            markup(file)
+        ),
+        None => "No trace of this run was written. With <code>--trace run.jsonl</code> the same \
+                 command writes one, which <code>cotama replay run.jsonl</code> runs again and \
+                 compares record by record."
+            .to_owned(),
+    };
+    let _ = write!(page, "</dl>\n<p>{again}</p>\n</footer>\n");
 }

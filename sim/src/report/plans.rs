@@ -3,15 +3,15 @@
 
 use super::events::capital;
 use super::format::{metres, trimmed};
-use super::svg::escape;
 use super::view::{View, families, family, tint};
 use super::{MAX_CELLS, MAX_COLUMNS, MAX_PLANS};
 use crate::trace::PlanRow;
+use cotama_core::text::markup;
 use cotama_models::missions::{Mission, Task, Tio};
 use std::collections::HashMap;
 use std::fmt::Write;
 
-/// What a task is called in words.
+/// Returns the name of a task in words.
 pub(super) const fn task_name(task: Task) -> &'static str {
     match task {
         Task::Move => "move",
@@ -32,14 +32,21 @@ pub(super) fn section(view: &View<'_>) -> String {
     };
     let families = families(&view.plans);
     let most = MAX_PLANS.min(MAX_CELLS / columns.len().max(1)).max(1);
-    let mut html = String::from(
+    // More columns than these are wider than a phone.
+    let hint = if columns.len() > 5 {
+        "<p class=\"note hint\">The table goes on to the right.</p>\n"
+    } else {
+        ""
+    };
+    let mut html = format!(
         "<section class=\"plans\"><h2>Plans</h2>\n<p class=\"note\">A row is a plan, a column an \
          activity. Each cell names the choice and its speed in m/s; a framed one differs from the \
-         plan above. Activities that were done have no cell.</p>\n<div class=\"scroll\">\
+         plan above. Activities that were done have no cell, so later plans begin further right.\
+         </p>\n{hint}<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Plans\">\
          <table class=\"matrix\"><thead>\n<tr><th>Plan</th>",
     );
     for id in &columns {
-        let _ = write!(html, "<th>{}</th>", escape(id));
+        let _ = write!(html, "<th>{}</th>", markup(id));
     }
     html.push_str("</tr>\n");
     objectives(&mut html, view, columns.len());
@@ -51,7 +58,7 @@ pub(super) fn section(view: &View<'_>) -> String {
         let _ = write!(
             html,
             "<tr><th title=\"{}\"><b class=\"pin\">{number}</b>{}</th>",
-            escape(&plan.cause),
+            markup(&plan.cause),
             metres(plan.x_mm)
         );
         for id in &columns {
@@ -64,14 +71,14 @@ pub(super) fn section(view: &View<'_>) -> String {
                 .filter(|was| was.choice != row.choice || was.speed_mm_s != row.speed_mm_s);
             let speed = if row.speed_mm_s == 0 { "–".into() } else { trimmed(row.speed_mm_s) };
             let (changed, title) = match was {
-                Some(was) => (" changed", format!(" title=\"was {}\"", escape(&was.choice))),
+                Some(was) => (" changed", format!(" title=\"was {}\"", markup(&was.choice))),
                 None => ("", String::new()),
             };
             let _ = write!(
                 html,
                 "<td class=\"{}{changed}\"{title}>{}<small>{speed}</small></td>",
                 tint(&families, &row.choice),
-                escape(&row.choice)
+                markup(&row.choice)
             );
         }
         html.push_str("</tr>\n");
@@ -105,12 +112,12 @@ fn objectives(html: &mut String, view: &View<'_>, columns: usize) {
     html.push_str("<tr class=\"objectives\"><th></th>");
     for (objective, span) in spans {
         let id = mission.objectives.get(objective).map_or("", |it| it.id.as_str());
-        let _ = write!(html, "<th colspan=\"{span}\">{}</th>", escape(id));
+        let _ = write!(html, "<th colspan=\"{span}\">{}</th>", markup(id));
     }
     html.push_str("</tr>\n");
 }
 
-/// What an option needs: `sonar, 2 laser`.
+/// Returns the needs of an option: `sonar, 2 laser`.
 pub(super) fn needs(tio: &Tio, mission: &Mission) -> String {
     let hardware = mission.hardware.iter().enumerate();
     let parts = hardware.filter_map(|(kind, hardware)| match tio.needs.of(kind) {
@@ -141,9 +148,9 @@ fn legend(html: &mut String, view: &View<'_>, families: &[&str]) {
         let _ = write!(
             html,
             "<li><b class=\"{class}\">{}</b>{}: {}</li>",
-            escape(id),
+            markup(id),
             capital(task_name(tio.task)),
-            escape(&needs(tio, mission))
+            markup(&needs(tio, mission))
         );
     }
     html.push_str("</ul>\n");

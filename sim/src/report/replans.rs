@@ -1,12 +1,12 @@
 //! Replans explained: why, what changed, what it gave.
 
 use super::MAX_PLANS;
-use super::events::{capital, short, summary};
+use super::events::{capital, power_error, short, summary};
 use super::format::{metres, milli, moment, speed};
-use super::svg::escape;
 use super::view::View;
 use crate::supervised::story::Point;
 use crate::trace::{Event, Margins, Plan, PlanRow};
+use cotama_core::text::markup;
 use std::collections::HashMap;
 use std::fmt::Write;
 
@@ -31,8 +31,8 @@ pub(super) fn section(view: &View<'_>) -> String {
              none: {}. The robot stopped.</p></article>",
             metres(abort.x_mm),
             moment(abort.t_us),
-            escape(&abort.cause),
-            escape(&abort.reason)
+            markup(&abort.cause),
+            markup(&abort.reason)
         );
     }
     html.push_str("</section>\n");
@@ -41,23 +41,23 @@ pub(super) fn section(view: &View<'_>) -> String {
 
 fn card(html: &mut String, view: &View<'_>, number: usize) {
     let (plan, before) = (view.plans[number], view.plans[number - 1]);
-    let since = |event: &&&Event| event.t_us >= before.t_us && event.t_us <= plan.t_us;
+    let since = |event: &&&Event| event.t_us >= before.t_us && began(event) <= plan.t_us;
     let mut events: Vec<&Event> = view.events.iter().filter(since).copied().collect();
-    // What led to the plan before is not counted again.
+    // The causes of the plan before are not counted again.
     if number > 1 {
-        events.retain(|event| event.t_us > before.t_us);
+        events.retain(|event| event.t_us > before.t_us && began(event) != before.t_us);
     }
     let _ = write!(
         html,
         "<article class=\"card\"><h3><b class=\"pin\">{number}</b>{} <span class=\"where\">at {}, \
          {}, in {}</span>\
          </h3>\n<div class=\"pair\"><div>\n<p>{}</p>\n<h4>What changed</h4>\n{}</div>\n",
-        escape(&capital(&plan.cause)),
+        markup(&capital(&plan.cause)),
         metres(plan.x_mm),
         moment(plan.t_us),
-        escape(&plan.first_activity),
-        escape(&if view.points.is_empty() {
-            why(plan, number, &events)
+        markup(&plan.first_activity),
+        markup(&if view.points.is_empty() {
+            why(view, plan, number, &events)
         } else {
             failed(view, plan)
         }),
@@ -65,6 +65,11 @@ fn card(html: &mut String, view: &View<'_>, number: usize) {
     );
     margins(html, plan, view.points.is_empty());
     html.push_str("</div></article>\n");
+}
+
+/// When an event began, which is recorded when it is over.
+const fn began(event: &Event) -> u64 {
+    event.t_us.saturating_sub(event.lost_us)
 }
 
 /// Which failure a plan of a supervised run goes back to.
@@ -81,7 +86,7 @@ fn failed(view: &View<'_>, plan: &Plan) -> String {
 }
 
 /// Why a plan was made, in sentences.
-fn why(plan: &Plan, number: usize, events: &[&Event]) -> String {
+fn why(view: &View<'_>, plan: &Plan, number: usize, events: &[&Event]) -> String {
     let old = number - 1;
     let below = |margins: &Margins, cause: &str| {
         let duration = cause.starts_with("duration");
@@ -103,6 +108,9 @@ fn why(plan: &Plan, number: usize, events: &[&Event]) -> String {
         (_, cause) => format!("Cause: {cause}."),
     };
     match events.last() {
+        Some(last) if last.t_us > plan.t_us => {
+            let _ = write!(text, " At that time, at {}: {}.", metres(last.x_mm), short(last).2);
+        }
         Some(last) if last.t_us == plan.t_us => {
             let _ = write!(text, " Directly before, at {}: {}.", metres(last.x_mm), short(last).2);
         }
@@ -120,6 +128,14 @@ fn why(plan: &Plan, number: usize, events: &[&Event]) -> String {
     }
     if events.len() > 1 {
         let _ = write!(text, " Since plan {old} in all: {}.", summary(events));
+    }
+    let from_mm = view.plans.get(old).map_or(0, |it| it.x_mm);
+    let errors = view.power_errors();
+    let passed =
+        errors.iter().filter(|it| it.0.x_start.0 < plan.x_mm && from_mm < it.0.x_end.0).take(6);
+    let passed: Vec<String> = passed.map(power_error).collect();
+    if !passed.is_empty() {
+        let _ = write!(text, " Real power against the model since then: {}.", passed.join(", "));
     }
     text
 }
@@ -171,9 +187,9 @@ fn changes(before: &Plan, after: &Plan) -> String {
             html,
             "<li><span class=\"id\">{}</span><s>{}</s><span aria-label=\"becomes\">→</span><b>{}\
              </b></li>",
-            escape(&ids),
-            escape(from),
-            escape(to)
+            markup(&ids),
+            markup(from),
+            markup(to)
         );
     }
     if total == 1 {

@@ -41,9 +41,9 @@ pub(super) struct Scale {
     pub(super) low: i128,
     /// The highest value, above the lowest.
     pub(super) high: i128,
-    /// Where the highest value is.
+    /// The highest value.
     pub(super) top: f64,
-    /// Where the lowest value is.
+    /// The lowest value.
     pub(super) bottom: f64,
 }
 

@@ -2,11 +2,12 @@
 //! it ended.
 
 use super::format::{count, grouped, joules, metres, moment, percent, seconds};
-use super::svg::escape;
 use super::view::View;
 use crate::run::Outcome;
 use crate::supervised::story::Chain;
 use crate::trace::{End, Event, Occurrence, Plan};
+use cotama_core::text::markup;
+use cotama_models::cotama::Class;
 use std::fmt::Write;
 
 /// The most things that a sentence lists.
@@ -22,7 +23,7 @@ pub(super) fn section(view: &View<'_>) -> String {
     ];
     let mut html = String::from("<dl class=\"story\">");
     for (name, sentence) in sentences {
-        let _ = write!(html, "<div><dt>{name}</dt><dd>{}</dd></div>", escape(&sentence));
+        let _ = write!(html, "<div><dt>{name}</dt><dd>{}</dd></div>", markup(&sentence));
     }
     html.push_str("</dl>\n");
     html
@@ -79,7 +80,7 @@ fn happened(view: &View<'_>) -> String {
     }
 }
 
-/// What failed in a supervised run.
+/// Returns the failures of a supervised run, in words.
 fn failed(view: &View<'_>) -> String {
     let points: Vec<_> = view.points.iter().filter(|it| it.chain().is_some()).collect();
     if points.is_empty() {
@@ -130,22 +131,22 @@ fn planned(view: &View<'_>) -> String {
     text
 }
 
-/// What a supervisor decided on a failure, in words that a failure can follow.
+/// Returns the decision of a supervisor on a failure, in words that a failure can follow.
 fn decision(chain: &Chain<'_>) -> Option<&'static str> {
     let it = chain.decision?;
-    Some(match (it.decision.as_str(), it.event.as_deref()) {
-        ("adapter", Some("adapt_rt")) => "the adapter took fewer particles",
-        ("adapter", Some("adapt_mcl")) => "the adapter took odometry",
-        ("adapter", Some("adapt_bump")) => "the adapter slowed the robot down",
-        ("adapter", Some("adapt_smz")) => "the adapter took the other avoidance",
-        ("adapter", Some("adapt_avoidance")) => "the adapter went on without avoidance",
-        ("adapter", Some("adapt_minor" | "adapt_minor_teleoperation")) => {
+    Some(match (it.decision, it.event.as_deref()) {
+        (Class::Adapter, Some("adapt_rt")) => "the adapter took fewer particles",
+        (Class::Adapter, Some("adapt_mcl")) => "the adapter took odometry",
+        (Class::Adapter, Some("adapt_bump")) => "the adapter slowed the robot down",
+        (Class::Adapter, Some("adapt_smz")) => "the adapter took the other avoidance",
+        (Class::Adapter, Some("adapt_avoidance")) => "the adapter went on without avoidance",
+        (Class::Adapter, Some("adapt_minor" | "adapt_minor_teleoperation")) => {
             "the adapter changed a setting"
         }
-        ("adapter", _) => "the adapter went on without sonars",
-        ("local", _) => "the operator was asked",
-        ("global", _) => "the mission was ended safely",
-        _ => "nothing changed",
+        (Class::Adapter, _) => "the adapter went on without sonars",
+        (Class::Local, _) => "the operator was asked",
+        (Class::Global, _) => "the mission was ended safely",
+        (Class::Record, _) => "nothing changed",
     })
 }
 
@@ -192,7 +193,7 @@ fn ended(view: &View<'_>) -> String {
     format!("{how}; {}.", margins(view, end))
 }
 
-/// What of both limits is left, or missing.
+/// Returns the margins of both limits, or what they lack.
 fn margins(view: &View<'_>, end: &End) -> String {
     let (limits, left) = (view.trace.header.limits, end.margins);
     let time = seconds(left.duration_ms.unsigned_abs());

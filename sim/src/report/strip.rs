@@ -1,23 +1,35 @@
 //! The corridor as a strip: zones, objectives, activities and what happened, along one axis.
 
-use super::axis::{Axis, Layout, NARROW, WIDE};
+use super::axis::{Axis, Layout};
 use super::events::{glyph, short};
 use super::format::{metres, moment, speed};
-use super::svg::{Svg, text_width};
+use super::svg::{SMALL, Svg, fitted, text_width};
 use super::view::{Step, View, families, tint};
 use super::{MAX_MARKS, MAX_PINS};
 use cotama_models::missions::{Mission, Zone};
 use std::cmp::Reverse;
 use std::fmt::Write;
 
+/// The most rows of events that have their labels.
+const EVENT_LANES: usize = 10;
+
 /// The height of a bar.
 pub(super) const BAR: f64 = 18.0;
 
 /// The strip and its key.
 pub(super) fn section(view: &View<'_>) -> String {
-    let mut html = String::from("<section class=\"strip\"><h2>The corridor</h2>\n<figure>\n");
-    html.push_str(&draw(view, WIDE));
-    html.push_str(&draw(view, NARROW));
+    let mut html = String::from("<section class=\"strip\"><h2>The corridor</h2>\n");
+    if !view.stops.is_empty() {
+        html.push_str(
+            "<p class=\"note\">From left to right runs the path, in metres. A shaded band is a \
+             place where time passes: it is as wide as its time, and what lies behind it is moved \
+             on.</p>\n",
+        );
+    }
+    html.push_str("<figure>\n");
+    for layout in super::charts::layouts(view) {
+        html.push_str(&draw(view, layout));
+    }
     html.push_str("<figcaption class=\"keys\">");
     if view.plans.len() > 1 {
         html.push_str("<span class=\"key\"><b class=\"pin\">1</b>replan</span>");
@@ -38,7 +50,8 @@ pub(super) fn section(view: &View<'_>) -> String {
     }
     if !view.stops.is_empty() {
         html.push_str(
-            "<span class=\"key\"><i class=\"swatch stop\"></i>stop: time passes, no path</span>",
+            "<span class=\"key\"><i class=\"swatch stop\"></i>stop or wait: time passes, no path\
+             </span>",
         );
     }
     html.push_str("</figcaption></figure></section>\n");
@@ -106,8 +119,8 @@ pub(super) fn draw_pins(svg: &mut Svg, axis: &Axis, view: &View<'_>, y: f64, bot
     }
 }
 
-/// Where the run ended, if that is not the end of the path; in words too, with a layout to write
-/// them in.
+/// Draws the end of the run, if that is not the end of the path; in words too, with a layout to
+/// write them in.
 pub(super) fn draw_end(
     svg: &mut Svg,
     axis: &Axis,
@@ -144,9 +157,28 @@ pub(super) struct Rows<A> {
     pub(super) layout: Layout,
     pub(super) axis: A,
     pub(super) y: f64,
+    /// How many labels had no room.
+    pub(super) unlabelled: usize,
 }
 
 impl<A> Rows<A> {
+    pub(super) fn new(layout: Layout, axis: A, y: f64) -> Self {
+        Self { svg: Svg::new(), layout, axis, y, unlabelled: 0 }
+    }
+
+    /// Says how many labels had no room, and where else they stand; the space that it takes.
+    pub(super) fn confess(&self, svg: &mut Svg, y: f64) -> f64 {
+        if self.unlabelled == 0 {
+            return 0.0;
+        }
+        let what = super::format::count(self.unlabelled as u64, "label");
+        let words = format!("{what} without room: see the tables below");
+        let half = text_width(&words, SMALL) / 2.0;
+        let middle = f64::midpoint(self.layout.left, self.layout.end());
+        svg.text("m small muted", [self.layout.within(middle, half), y], &words);
+        14.0
+    }
+
     /// Begins a row: beside it stands its name, or above it where it is narrow.
     pub(super) fn name(&mut self, name: &str) {
         if self.layout.names_beside {
@@ -160,7 +192,6 @@ impl<A> Rows<A> {
     /// A row of bars, one after the other. What has no room for its label has it underneath; with
     /// `merge`, neighbours share one: `A2–A3`.
     pub(super) fn bars(&mut self, bars: &[Bar], merge: bool) {
-        let size = self.layout.size - 1.0;
         let mut runs: Vec<(usize, usize)> = Vec::new();
         for (index, bar) in bars.iter().enumerate() {
             let Bar { from, to, class, label, title } = bar;
@@ -170,7 +201,7 @@ impl<A> Rows<A> {
                     svg.rect(class, [*from + 0.5, y], [(to - from - 1.0).max(0.7), BAR]);
                 });
             }
-            if text_width(label, size) + 5.0 <= to - from {
+            if text_width(label, SMALL) + 5.0 <= to - from {
                 self.svg.text("m small", [f64::midpoint(*from, *to), y + 13.0], label);
             } else {
                 match runs.last_mut() {
@@ -179,21 +210,24 @@ impl<A> Rows<A> {
                 }
             }
         }
-        let mut lanes = Lanes::new(2);
+        let mut lanes = Lanes::new(4);
         for (first, last) in runs {
             let (from, to) = (bars[first].from, bars[last].to);
             let label = match last - first {
                 0 => bars[first].label.clone(),
                 _ => format!("{}–{}", bars[first].label, bars[last].label),
             };
-            let half = text_width(&label, size) / 2.0;
-            let middle = f64::midpoint(from, to).min(self.layout.width - half);
+            let label = fitted(&label, SMALL, self.layout.width - 2.0);
+            let half = text_width(&label, SMALL) / 2.0;
+            let middle = self.layout.within(f64::midpoint(from, to), half);
             if let Some(lane) = lanes.place(middle - half - 3.0, middle + half + 3.0) {
-                let y = self.y + BAR + 11.0 + lane as f64 * 12.0;
+                let y = self.y + BAR + 11.0 + lane as f64 * 14.0;
                 self.svg.text("m small muted halo", [middle, y], &label);
+            } else {
+                self.unlabelled += 1;
             }
         }
-        self.y += BAR + 8.0 + lanes.count() as f64 * 12.0;
+        self.y += BAR + 8.0 + lanes.count() as f64 * 14.0;
     }
 }
 
@@ -203,8 +237,7 @@ impl Rows<&Axis> {
         let mut zones: Vec<&Zone> = mission.zones.iter().take(MAX_MARKS).collect();
         // The longest first: they share the upper rows, and the short ones hang below.
         zones.sort_by_key(|zone| (Reverse(zone.x_end.0 - zone.x_start.0), zone.x_start));
-        let size = self.layout.size - 1.0;
-        let mut lanes = Lanes::new(24);
+        let mut lanes = Lanes::new(60);
         for zone in zones {
             let (from, to) = (self.axis.after(zone.x_start.0), self.axis.before(zone.x_end.0));
             let demands = demands(zone, mission);
@@ -213,12 +246,25 @@ impl Rows<&Axis> {
             } else {
                 format!("{}  {demands}", zone.id)
             };
-            let width = text_width(&label, size) + 8.0;
-            let inside = width <= to - from;
-            let leftwards = !inside && to + width > self.layout.width;
-            let left = if leftwards { from - width } else { from };
-            let right = if inside || leftwards { to } else { to + width };
-            let Some(lane) = lanes.place(left, right) else { continue };
+            let label = fitted(&label, SMALL, self.layout.width - 4.0);
+            let width = text_width(&label, SMALL) + 8.0;
+            // The label stands inside, else on the right, else on the left, else where it can.
+            let half = text_width(&label, SMALL) / 2.0;
+            let middle = f64::midpoint(from, to);
+            let (class, x, left, right) = if width <= to - from {
+                ("m small halo", middle, from, to)
+            } else if to + width <= self.layout.width {
+                ("small halo", to + 4.0, from, to + width)
+            } else if from - width >= 0.0 {
+                ("e small halo", from - 4.0, from - width, to)
+            } else {
+                let middle = self.layout.within(middle, half);
+                ("m small halo", middle, from.min(middle - half), to.max(middle + half))
+            };
+            let Some(lane) = lanes.place(left, right) else {
+                self.unlabelled += 1;
+                continue;
+            };
             let y = self.y + lane as f64 * (BAR + 3.0);
             let title = format!(
                 "{}: {} to {}, {demands}",
@@ -228,38 +274,36 @@ impl Rows<&Axis> {
             );
             self.svg.titled(&title, |svg| {
                 svg.rect("zone", [from + 0.5, y], [(to - from - 1.0).max(1.0), BAR]);
-                if inside {
-                    svg.text("m small halo", [f64::midpoint(from, to), y + 13.0], &label);
-                } else if leftwards {
-                    svg.text("e small halo", [from - 4.0, y + 13.0], &label);
-                } else {
-                    svg.text("small halo", [to + 4.0, y + 13.0], &label);
-                }
+                svg.text(class, [x, y + 13.0], &label);
             });
         }
-        self.y += lanes.count() as f64 * (BAR + 3.0) + 5.0;
+        if mission.zones.is_empty() {
+            self.svg.text("small muted", [self.layout.left, self.y + 13.0], "none");
+        }
+        self.y += lanes.count().max(1) as f64 * (BAR + 3.0) + 5.0;
     }
 
     fn events(&mut self, view: &View<'_>) {
         self.name("Events");
-        let size = self.layout.size - 1.0;
         let mut events: Vec<_> = view.events.iter().take(MAX_MARKS).collect();
-        // Those that change the hardware are labelled first; where it is crowded, the others lose
+        // Events that change the hardware are labelled first; where it is crowded, others lose
         // their labels.
         events.sort_by_key(|event| !matches!(short(event).0, "fault" | "repair"));
         if events.is_empty() {
             self.svg.text("small muted", [self.layout.left, self.y + 13.0], "none");
         }
-        let mut lanes = Lanes::new(5);
+        let mut lanes = Lanes::new(EVENT_LANES + 2);
         for event in events {
             let x = self.axis.at(event.x_mm, event.t_us);
             let (kind, label, words) = short(event);
-            let width = text_width(&label, size) + 9.0;
+            let label = fitted(&label, SMALL, self.layout.width / 2.0 - 20.0);
+            let width = text_width(&label, SMALL) + 9.0;
             let leftwards = x + width > self.layout.width;
             let (left, right) = if leftwards { (x - width, x + 7.0) } else { (x - 7.0, x + width) };
-            let labelled = lanes.place_within(3, left, right + 4.0);
-            let lane = labelled.or_else(|| lanes.place_within(5, x - 7.0, x + 7.0));
-            let y = self.y + 9.0 + lane.unwrap_or(4) as f64 * 17.0;
+            let labelled = lanes.place_within(EVENT_LANES, left, right + 4.0);
+            let lane = labelled.or_else(|| lanes.place(x - 7.0, x + 7.0));
+            let y = self.y + 9.0 + lane.unwrap_or(EVENT_LANES + 1) as f64 * 17.0;
+            self.unlabelled += usize::from(labelled.is_none());
             let title = format!("{words} at {}, {}", metres(event.x_mm), moment(event.t_us));
             self.svg.titled(&title, |svg| {
                 svg.path(&format!("mark {kind}"), &glyph(kind, x, y));
@@ -274,7 +318,7 @@ impl Rows<&Axis> {
     }
 }
 
-/// What a zone demands: `≤ 0.33 m/s, sonar`.
+/// Returns the demands of a zone: `≤ 0.33 m/s, sonar`.
 pub(super) fn demands(zone: &Zone, mission: &Mission) -> String {
     let mut demands: Vec<String> =
         zone.speed_max.iter().map(|it| format!("≤ {}", speed(it.0))).collect();
@@ -321,7 +365,9 @@ fn objectives(view: &View<'_>, mission: &Mission, axis: &Axis) -> Vec<Bar> {
 
 fn draw(view: &View<'_>, layout: Layout) -> String {
     let axis = Axis::new(view, layout);
-    let mut rows = Rows { svg: Svg::new(), layout, axis: &axis, y: 26.0 };
+    // Above the rows stand the pins, and below them where the run ended.
+    let first = if view.last().0 < view.length_mm { 40.0 } else { 26.0 };
+    let mut rows = Rows::new(layout, &axis, first);
     if let Ok(mission) = &view.mission {
         rows.zones(mission);
         rows.name("Objectives");
@@ -358,13 +404,16 @@ fn draw(view: &View<'_>, layout: Layout) -> String {
     let bottom = rows.y;
     axis.draw(&mut rows.svg, bottom, bottom);
     let mut under = Svg::new();
-    axis.draw_stops(&mut under, 26.0, bottom);
+    axis.draw_stops(&mut under, first, bottom);
     axis.draw_stop_labels(&mut under, bottom + 32.0);
+    axis.draw_caption(&mut under, bottom + 46.0);
+    let end = bottom + if view.stops.is_empty() { 38.0 } else { 52.0 };
+    let end = end + rows.confess(&mut under, end + 4.0);
     draw_pins(&mut under, &axis, view, 10.0, bottom);
-    draw_end(&mut under, &axis, view, [10.0, bottom], Some(layout));
+    draw_end(&mut under, &axis, view, [first - 16.0, bottom], Some(layout));
     let length = metres(view.length_mm);
     let label =
         format!("The path of {length} with its zones, objectives, activities, choices and events");
     under.append(&rows.svg);
-    under.finish(layout.class, [layout.width, bottom + 38.0], &label)
+    under.finish(layout.class, [layout.width, end], &label)
 }

@@ -1,23 +1,31 @@
 //! The run of a team as one page: who did what when, what went wrong, what was said.
 
-use super::axis::{Layout, NARROW, WIDE, tick_label, ticks};
+use super::axis::{Layout, NARROW, WIDE, draw_tick_labels, tick_label, ticks};
 use super::format::{clock, count, grouped, percent, seconds};
-use super::svg::{Svg, escape, fixed, text_width};
+use super::svg::{Svg, fitted, fixed, text_width};
 use crate::fleet::Kind;
 use crate::fleet::record::{Fate, Record};
-use crate::fleet::task::Stage;
 use crate::fleet::trace::Trace;
+use cotama_core::text::markup;
+use cotama_models::team::ErrorClass;
 use std::fmt::Write;
+
+mod bars;
+
+use bars::{Bar, bars};
 
 /// The most rows of a list.
 const MOST_ROWS: usize = 400;
+/// The most bars that are listed.
+const MOST_BARS: usize = 2_000;
 /// More robots than these have thinner lanes.
 const FEW: usize = 12;
 
-/// What the colours say, in the order of the key: a class, and words.
-const COLOURS: [(&str, &str); 4] = [
+/// The legend of the colours, in the order of the key: a class, and words.
+const COLOURS: [(&str, &str); 5] = [
     ("f6", "drives to where something is taken"),
-    ("f5", "takes, gives, waits for a partner"),
+    ("f5", "takes or gives"),
+    ("f2", "waits for its partner"),
     ("f0", "drives to where it is given"),
     ("gone", "out of work"),
 ];
@@ -38,7 +46,7 @@ pub fn html(trace: &Trace) -> String {
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta name=\"color-scheme\" content=\"light dark\">\n<title>{}: team report</title>\n\
          <style>\n{}</style>\n</head>\n<body>\n<main>\n",
-        escape(&trace.header.scenario),
+        markup(&trace.header.scenario),
         include_str!("style.css")
     );
     head(&mut page, trace);
@@ -52,11 +60,15 @@ pub fn html(trace: &Trace) -> String {
 }
 
 fn head(page: &mut String, trace: &Trace) {
-    let run = &trace.run;
+    let run = trace.run();
     let [done, reported] = [Fate::Done, Fate::Reported].map(|it| run.count(it));
     let all = run.fates.len();
     let (class, shape, sentence) = if done == all {
-        ("completed", "M9 17l5 5 9-12", format!("All {all} tasks are done"))
+        let sentence = match all {
+            1 => "The task is done".to_owned(),
+            all => format!("All {all} tasks are done"),
+        };
+        ("completed", "M9 17l5 5 9-12", sentence)
     } else {
         let sentence = format!("{done} of {all} tasks are done, {reported} reported");
         ("safe", "M16 8v10M16 22.5v.5", sentence)
@@ -73,7 +85,7 @@ fn head(page: &mut String, trace: &Trace) {
          <circle cx=\"16\" cy=\"16\" r=\"15\"/><path d=\"{shape}\"/></svg>\
          <p><strong>{sentence}</strong><span>{}, put up again {} times; {} of {} robots are out of \
          work at the end.</span></p></div>\n<dl class=\"facts\">\n",
-        escape(title),
+        markup(title),
         count(u64::from(run.awards.iter().sum::<u32>()), "award"),
         run.reopened,
         run.out,
@@ -85,6 +97,7 @@ fn head(page: &mut String, trace: &Trace) {
         ("Time", clock(run.end_ms)),
         ("A task takes, on average", clock(mean)),
         ("Robots worked", clock(run.busy_ms)),
+        ("Energy", format!("{}.{} kJ", run.energy_mj / 1_000_000, run.energy_mj / 100_000 % 10)),
         ("Auctions", grouped(u128::from(run.rounds))),
         ("Messages", grouped(u128::from(sent))),
         ("Of these lost", format!("{} %", percent(run.lost, sent))),
@@ -99,10 +112,13 @@ fn head(page: &mut String, trace: &Trace) {
 fn gantt(page: &mut String, trace: &Trace) {
     page.push_str(
         "<section><h2>Who did what, when</h2>\n<p class=\"note\">A lane is a robot; where it rests \
-         there is no bar. Point at a bar to see its task.</p>\n<figure>\n",
+         there is no bar. The table below the drawing lists all bars.</p>\n<figure>\n",
     );
-    page.push_str(&lanes(trace, WIDE));
-    page.push_str(&lanes(trace, NARROW));
+    let end_ms = trace.run().end_ms.max(1);
+    let all: Vec<Vec<Bar>> =
+        (0..trace.header.robots.len()).map(|robot| bars(trace, robot, end_ms)).collect();
+    page.push_str(&lanes(trace, &all, WIDE));
+    page.push_str(&lanes(trace, &all, NARROW));
     page.push_str("<figcaption class=\"keys\">");
     for (class, words) in COLOURS {
         let _ =
@@ -115,15 +131,52 @@ fn gantt(page: &mut String, trace: &Trace) {
          <circle class=\"open\" r=\"4\"/></svg>a task given back</span>\
          <span class=\"key\"><svg class=\"glyph\" viewBox=\"-7 -7 14 14\">\
          <circle class=\"after\" r=\"4\"/></svg>an error that is dealt with</span>\
-         </figcaption></figure></section>\n",
+         </figcaption></figure>\n",
     );
+    list(page, trace, &all);
+    page.push_str("</section>\n");
 }
 
-fn lanes(trace: &Trace, layout: Layout) -> String {
+/// All bars as a table, which fingers and keys reach as well.
+fn list(page: &mut String, trace: &Trace, all: &[Vec<Bar>]) {
+    let bars = all.iter().flatten().count();
+    let _ = write!(
+        page,
+        "<details><summary>{} as a table</summary>\n<div class=\"scroll\"><table><thead><tr>\
+         <th>Robot</th><th class=\"n\">From</th><th class=\"n\">To</th><th>Does</th>\
+         <th>Task</th></tr></thead>\n<tbody>\n",
+        count(bars as u64, "bar")
+    );
+    let rows =
+        all.iter().enumerate().flat_map(|(robot, bars)| bars.iter().map(move |it| (robot, it)));
+    for (robot, it) in rows.take(MOST_BARS) {
+        let _ = writeln!(
+            page,
+            "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td>\
+             <td>{}</td></tr>",
+            markup(trace.robot(robot)),
+            seconds(it.from),
+            seconds(it.to),
+            it.does,
+            markup(if it.label.is_empty() { "–" } else { &it.label })
+        );
+    }
+    page.push_str("</tbody></table></div>\n");
+    if bars > MOST_BARS {
+        let more = bars - MOST_BARS;
+        let _ = writeln!(page, "<p class=\"note\">and {more} more; the trace has them all</p>");
+    }
+    page.push_str("</details>\n");
+}
+
+fn lanes(trace: &Trace, all: &[Vec<Bar>], layout: Layout) -> String {
     let robots = trace.header.robots.len();
     let (height, bar) = if robots > FEW { (14.0, 10.0) } else { (28.0, 20.0) };
-    let left = if layout.names_beside { 58.0 } else { layout.left };
-    let end_ms = trace.run.end_ms.max(1);
+    let names: Vec<String> = trace.header.robots.iter().map(|it| fitted(it, 11.0, 110.0)).collect();
+    let layout = Layout { left: if layout.names_beside { 58.0 } else { layout.left }, ..layout };
+    let layout = layout.with_room(&names, false);
+    let left = layout.left;
+    let end_ms = trace.run().end_ms.max(1);
     let at = |t_ms: u64| {
         let share = t_ms.min(end_ms) as f64 / end_ms as f64;
         left + share * (layout.end() - left)
@@ -131,19 +184,18 @@ fn lanes(trace: &Trace, layout: Layout) -> String {
     let mut svg = Svg::new();
     let bottom = 8.0 + robots as f64 * height;
     let (numbers, step) = ticks(0, i128::from(end_ms), layout.x_ticks);
-    let last = numbers.last().copied();
+    let mut labels = Vec::new();
     for number in numbers {
         let x = at(u64::try_from(number).unwrap_or(0));
         svg.line("grid", [x, 4.0], [x, bottom]);
-        let unit = if Some(number) == last { " s" } else { "" };
-        let label = format!("{}{unit}", tick_label(number, step));
-        svg.text("m small muted", [x, bottom + 16.0], &label);
+        labels.push((x, tick_label(number, step)));
     }
+    draw_tick_labels(&mut svg, layout, labels, " s", bottom + 16.0);
     svg.line("axis", [left, bottom], [layout.end(), bottom]);
-    for (robot, name) in trace.header.robots.iter().enumerate() {
+    for (robot, name) in names.iter().enumerate() {
         let y = 8.0 + robot as f64 * height;
         svg.text("small muted", [0.0, y + bar / 2.0 + 4.0], name);
-        for it in bars(trace, robot, end_ms) {
+        for it in &all[robot] {
             let (from, to) = (at(it.from), at(it.to));
             svg.titled(&it.title, |svg| {
                 svg.rect(&format!("tint {}", it.class), [from, y], [to - from, bar]);
@@ -158,66 +210,22 @@ fn lanes(trace: &Trace, layout: Layout) -> String {
     svg.finish(layout.class, [layout.width, bottom + 22.0], label)
 }
 
-/// A stretch of a lane.
-struct Bar {
-    from: u64,
-    to: u64,
-    class: &'static str,
-    label: String,
-    title: String,
-}
-
-fn bars(trace: &Trace, robot: usize, end_ms: u64) -> Vec<Bar> {
-    let mut bars = Vec::new();
-    let mut current: Option<(u64, Option<usize>, Stage)> = None;
-    let own = trace.records.iter().filter_map(|it| match it {
-        Record::Stage { t_ms, robot: of, task, stage } if *of == robot => {
-            Some((*t_ms, *task, *stage))
-        }
-        _ => None,
-    });
-    for next in own.chain([(end_ms, None, Stage::Rests)]) {
-        if let Some((from, task, stage)) = current.filter(|it| it.0 < next.0) {
-            let (class, does) = match stage {
-                Stage::ToTake => ("f6", "drives to take"),
-                Stage::Takes => ("f5", "takes"),
-                Stage::ToGive => ("f0", "drives to give"),
-                Stage::Gives => ("f5", "gives"),
-                Stage::Stops | Stage::Safe => ("gone", "is out of work"),
-                Stage::Rests | Stage::Done => {
-                    current = Some(next);
-                    continue;
-                }
-            };
-            let label = task.map_or(String::new(), |it| trace.task(it).to_owned());
-            let title = format!(
-                "{}: {does}, {} to {}",
-                if label.is_empty() { trace.robot(robot) } else { &label },
-                seconds(from),
-                seconds(next.0)
-            );
-            bars.push(Bar { from, to: next.0, class, label, title });
-        }
-        current = Some(next);
-    }
-    bars
-}
-
 /// Failures and errors of a robot.
 fn marks(svg: &mut Svg, trace: &Trace, robot: usize, at: &dyn Fn(u64) -> f64, y: f64) {
     for record in &trace.records {
         match record {
-            Record::Fault { t_ms, robot: Some(of), what, .. } if *of == robot => {
+            Record::Fails { t_ms, robot: of, mode } if *of == robot => {
                 let x = at(*t_ms);
-                let title = format!("{}: {what} at {}", trace.robot(robot), seconds(*t_ms));
+                let (who, mode) = (trace.robot(robot), mode.name());
+                let title = format!("{who}: {mode} at {}", seconds(*t_ms));
                 let (left, top) = (fixed(x - 4.0), fixed(y - 4.0));
                 svg.titled(&title, |svg| {
                     svg.path("mark fault", &format!("M{left} {top}l8 8m0-8l-8 8"));
                 });
             }
             Record::Error { t_ms, robot: of, task, class, why } if *of == robot => {
-                let dealt = class == "recoverable";
-                let title = format!("{}, {class}: {why}", trace.task(*task));
+                let dealt = *class == ErrorClass::Recoverable;
+                let title = format!("{}, {}: {why}", trace.task(*task), class.name());
                 let place = [at(*t_ms), y];
                 let class = if dealt { "after" } else { "open" };
                 svg.titled(&title, |svg| svg.circle(class, place, 3.5));
@@ -232,21 +240,21 @@ fn wrong(page: &mut String, trace: &Trace) {
     let mut rows = Vec::new();
     for record in &trace.records {
         let row = match record {
-            Record::Fault { t_ms, robot: Some(robot), what, .. } => (
-                *t_ms,
-                trace.robot(*robot),
-                String::new(),
-                format!("fails: {}", Trace::words(what)),
-            ),
-            Record::Fault { t_ms, task, what, .. } => {
-                let task = task.map_or(String::new(), |it| trace.task(it).to_owned());
-                (*t_ms, "", task, format!("its object is {what}"))
+            Record::Fails { t_ms, robot, mode } => {
+                let what = format!("fails: {}", Trace::words(*mode));
+                (*t_ms, trace.robot(*robot), String::new(), what)
+            }
+            Record::Shifted { t_ms, task } => {
+                (*t_ms, "", trace.task(*task).to_owned(), "its object is shifted".to_owned())
+            }
+            Record::Turned { t_ms, task } => {
+                (*t_ms, "", trace.task(*task).to_owned(), "its object is turned".to_owned())
             }
             Record::Found { t_ms, robot, mode } => {
-                (*t_ms, trace.robot(*robot), String::new(), format!("finds {mode}"))
+                (*t_ms, trace.robot(*robot), String::new(), format!("finds {}", mode.name()))
             }
             Record::Error { t_ms, robot, task, class, why } => {
-                let what = format!("{class}: {why}");
+                let what = format!("{}: {why}", class.name());
                 (*t_ms, trace.robot(*robot), trace.task(*task).to_owned(), what)
             }
             Record::Silent { t_ms, robot, task } => {
@@ -277,9 +285,9 @@ fn wrong(page: &mut String, trace: &Trace) {
             page,
             "<tr><td class=\"n\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
             seconds(*t_ms),
-            escape(robot),
-            escape(task),
-            escape(what)
+            markup(robot),
+            markup(task),
+            markup(what)
         );
     }
     page.push_str("</tbody></table></div>\n");
@@ -294,7 +302,7 @@ fn cut(page: &mut String, rows: usize) {
     }
 }
 
-/// Who was awarded what.
+/// Writes the awards.
 fn auctions(page: &mut String, trace: &Trace) {
     let mut rows = 0;
     let mut table = String::new();
@@ -314,9 +322,9 @@ fn auctions(page: &mut String, trace: &Trace) {
             "<tr><td class=\"n\">{}</td><td class=\"n\">{round}</td><td>{}</td><td>{}</td>\
              <td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>",
             seconds(*t_ms),
-            escape(trace.task(*task)),
-            escape(plan),
-            escape(&robots.join(", ")),
+            markup(trace.task(*task)),
+            markup(plan),
+            markup(&robots.join(", ")),
             costs.join(" + "),
             pledges_ms.first().map_or(String::new(), |it| seconds(*it))
         );
@@ -347,7 +355,7 @@ fn messages(page: &mut String, trace: &Trace) {
             page,
             "<tr><td>{}</td><td class=\"n\">{}</td></tr>",
             kind.name(),
-            grouped(u128::from(trace.run.sent(kind)))
+            grouped(u128::from(trace.run().sent(kind)))
         );
     }
     page.push_str("</tbody></table></div></section>\n");
@@ -363,11 +371,11 @@ fn footer(page: &mut String, trace: &Trace) {
         ("Robots", header.robots.len().to_string()),
         ("Tasks", header.tasks.len().to_string()),
         ("Messages lost", loss),
-        ("Allocation", header.allocation.to_owned()),
+        ("Allocation", header.allocation.clone()),
     ];
     page.push_str("<footer><h2>How it was run</h2>\n<dl>\n");
     for (name, value) in rows {
-        let _ = writeln!(page, "<div><dt>{name}</dt><dd>{}</dd></div>", escape(&value));
+        let _ = writeln!(page, "<div><dt>{name}</dt><dd>{}</dd></div>", markup(&value));
     }
     page.push_str("</dl>\n</footer>\n");
 }

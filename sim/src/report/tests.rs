@@ -1,4 +1,4 @@
-use super::html;
+use super::{html, html_beside};
 use crate::options::{FaultChoice, Options};
 use crate::run::Outcome;
 use crate::trace::{Record, Trace};
@@ -7,10 +7,11 @@ use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, embedded};
 
 mod data;
+mod layout;
 mod reading;
 
 fn recorded(text: &str, options: &Options) -> Trace {
-    Trace::record("patrol", text, options).unwrap().0
+    Trace::record(&Mission::parse("patrol", text).unwrap(), options).unwrap().0
 }
 
 fn patrol() -> Trace {
@@ -26,7 +27,8 @@ fn patrol_under(body: &str) -> Trace {
     recorded(text, &Options { faults, ..Options::default() })
 }
 
-/// What is wrong with the tags of a page: every element closed in its turn, every attribute quoted.
+/// Returns the first error in the tags of a page: every element closed in its turn, every attribute
+/// quoted.
 fn ill_formed(page: &str) -> Option<String> {
     const VOID: [&str; 2] = ["meta", "!DOCTYPE"];
     let mut open: Vec<&str> = Vec::new();
@@ -98,13 +100,18 @@ fn the_patrol_shows_its_outcome_all_plans_and_all_events() {
     // RAS1 changes A16 and A17, RAS2 A14, A15 and A17, RAS3 A17.
     assert_eq!(page.matches(" changed\"").count(), 2 + 3 + 1);
     assert!(page.contains("<span class=\"id\">A14–A15</span><s>M5 L2</s>"));
-    assert!(page.contains("Directly before, at 63.4\u{a0}m: obstacle, 5.5\u{a0}s lost."));
+    assert!(page.contains(
+        "At that time, at 63.4\u{a0}m: odometry wrong: 2 m of extra path, 4.9\u{a0}s lost."
+    ));
     assert!(
         page.contains("9 dropped: zone glass-out requires the moving option to use 1 of sonar")
     );
     assert!(page.contains("768\u{202f}288\u{202f}795\u{202f}144\u{202f}192 plans"));
-    assert_eq!(page.matches("<path class=\"mark obstacle\"").count(), 7 * 3 + 1);
-    assert!(page.contains("cotama replay trace.jsonl"));
+    assert_eq!(page.matches("<path class=\"mark obstacle\"").count(), 6 * 3 + 1);
+    assert!(page.contains("No trace of this run was written."));
+    let beside = html_beside(&patrol(), Some("'a & b.jsonl'"));
+    assert!(beside.contains("<code>cotama replay &#39;a &amp; b.jsonl&#39;</code>"));
+    assert!(!beside.contains("No trace"));
 }
 
 #[test]
@@ -186,7 +193,7 @@ fn a_trace_without_samples_or_without_records_is_still_a_page() {
 }
 
 #[test]
-fn a_mission_that_cannot_be_read_leaves_out_what_only_it_tells() {
+fn a_mission_that_cannot_be_read_leaves_out_its_figures() {
     let mut trace = patrol();
     trace.header.mission = "no mission".into();
     let page = html(&trace);
@@ -258,8 +265,8 @@ fn thousands_of_replans_are_cut_and_said_to_be() {
 
 fn delivery_under(faults: FaultChoice) -> Trace {
     let text = embedded::mission("delivery").unwrap().text;
-    let options = Options { faults, planner: crate::supervised::PLANNER, ..Options::default() };
-    Trace::record("delivery", text, &options).unwrap().0
+    let options = Options { faults, ..Options::default() };
+    Trace::record(&Mission::parse("delivery", text).unwrap(), &options).unwrap().0
 }
 
 fn failures(modes: &[&str]) -> FaultChoice {
@@ -332,7 +339,7 @@ fn hostile_names_and_numbers_of_supervisors_are_only_text() {
             Record::Failure(it) => (it.mode, it.failure) = (hostile(), 1),
             Record::Diagnosis(it) => (it.flags, it.candidates) = (vec![hostile()], vec![hostile()]),
             Record::Decision(it) => (it.event, it.transition) = (Some(hostile()), Some(hostile())),
-            Record::Configuration(it) => (it.configuration, it.mode) = (Some(hostile()), hostile()),
+            Record::Configuration(it) => it.configuration = Some(hostile()),
             Record::Exposure(it) => it.exposed_ms = u64::MAX,
             _ => {}
         }

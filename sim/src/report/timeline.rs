@@ -1,8 +1,7 @@
-//! Who was in which place when: the supervisors of a mission over time, one lane each, with speed,
-//! position and margin below.
+//! The timeline of a mission's supervisors, one lane each, with speed, position and margin below.
 
 use super::MAX_POINTS;
-use super::axis::{Layout, NARROW, WIDE, tick_label, ticks};
+use super::axis::{Layout, NARROW, WIDE, draw_tick_labels, tick_label, ticks};
 use super::format::{clock, metres, moment, seconds};
 use super::series::{Point, Scale, below_zero, line, steps, thinned};
 use super::strip::{BAR, Bar, Lanes, Rows};
@@ -10,7 +9,7 @@ use super::svg::{Svg, fixed};
 use super::view::View;
 use crate::trace::{Record, Sample};
 use cotama_core::net::Role;
-use cotama_models::cotama::delivery;
+use cotama_models::cotama::{Mode, delivery};
 use std::fmt::Write;
 
 /// The nets that have a lane, with its name.
@@ -22,7 +21,7 @@ const NETS: [(&str, &str); 5] = [
     ("permit", "Permit"),
 ];
 
-/// What the colours say, in the order of the legend: a class, and words.
+/// The legend of the colours, in the order of the legend: a class, and words.
 const COLOURS: [(&str, &str); 8] = [
     ("f0", "the robot alone, as planned"),
     ("f1", "the same with fewer particles"),
@@ -83,7 +82,7 @@ fn close(view: &View<'_>, whole: Span) -> Option<Span> {
 /// When the mode that the last point led to was left again.
 fn leaving(view: &View<'_>, from_us: u64) -> u64 {
     let rests = view.trace.records.iter().find_map(|it| match it {
-        Record::Configuration(it) if it.t_us > from_us && it.mode == "rest" => Some(it.t_us),
+        Record::Configuration(it) if it.t_us > from_us && it.mode == Mode::Rest => Some(it.t_us),
         _ => None,
     });
     rests.unwrap_or(from_us)
@@ -104,7 +103,7 @@ struct Time {
 }
 
 impl Time {
-    /// Where a time is drawn; those outside of the span at its ends.
+    /// Returns the position of a time; those outside of the span stand at its ends.
     fn at(&self, t_us: u64) -> f64 {
         let Span { from_us, to_us } = self.span;
         let share = (t_us.clamp(from_us, to_us) - from_us) as f64 / (to_us - from_us).max(1) as f64;
@@ -121,18 +120,14 @@ impl Time {
         let (numbers, step) =
             ticks(ms(self.span.from_us), ms(self.span.to_us), self.layout.x_ticks);
         svg.line("axis", [self.layout.left, bottom], [self.layout.end(), bottom]);
-        let last = numbers.last().copied();
+        let mut labels = Vec::new();
         for number in numbers {
             let x = self.at(u64::try_from(number).unwrap_or(0).saturating_mul(1000));
             svg.line("grid", [x, top], [x, bottom]);
             svg.line("axis", [x, bottom], [x, bottom + 4.0]);
-            let unit = if Some(number) == last { " s" } else { "" };
-            svg.text(
-                "m small muted",
-                [x, bottom + 16.0],
-                &format!("{}{unit}", tick_label(number, step)),
-            );
+            labels.push((x, tick_label(number, step)));
         }
+        draw_tick_labels(svg, self.layout, labels, " s", bottom + 16.0);
     }
 }
 
@@ -180,12 +175,12 @@ fn panel(all: &mut Svg, view: &View<'_>, time: Time, top: f64, whole: bool, ever
     let layout = time.layout;
     let pins = pins(view, time);
     let first = top + 14.0 + pins.len() as f64 * 18.0;
-    let mut rows = Rows { svg: Svg::new(), layout, axis: time, y: first + 6.0 };
+    let mut rows = Rows::new(layout, time, first + 6.0);
     lane(&mut rows, "Failures", &failures(view, time));
     let configured = |mode: bool| {
         stretches(view, time, move |it| match it {
             Record::Configuration(it) if mode => {
-                Some(if it.mode == "rest" { "" } else { it.mode.as_str() })
+                Some(if it.mode == Mode::Rest { "" } else { it.mode.name() })
             }
             Record::Configuration(it) => Some(it.configuration.as_deref().unwrap_or("")),
             _ => None,
@@ -228,9 +223,11 @@ fn panel(all: &mut Svg, view: &View<'_>, time: Time, top: f64, whole: bool, ever
             });
         }
     }
+    let end = bottom + 22.0;
+    let end = end + rows.confess(&mut under, end + 10.0);
     all.append(&under);
     all.append(&rows.svg);
-    bottom + 22.0
+    end
 }
 
 /// The numbered pins of the points: rows from top to bottom, in each the numbers with their places.
@@ -275,8 +272,8 @@ fn failures(view: &View<'_>, time: Time) -> Vec<Bar> {
     bars
 }
 
-/// What holds from each record on until the next one that says so; where it is empty there is no
-/// bar.
+/// Returns the stretches from each record on until the next one that says so; where it is empty
+/// there is no bar.
 fn stretches<'t>(
     view: &View<'t>,
     time: Time,
@@ -358,7 +355,7 @@ fn curve(rows: &mut Rows<Time>, name: &str, height: f64, values: &[(u64, i64)], 
             [rows.layout.left, y],
             [rows.layout.end(), y],
         );
-        // Where names stand beside the rows, the numbers stand on the other side.
+        // The numbers stand on the other side where names stand beside the rows.
         let (class, x) = if rows.layout.names_beside {
             ("small muted", rows.layout.end() + 4.0)
         } else {

@@ -2,11 +2,12 @@
 //! choice.
 
 use crate::supervised::story::{Point, points};
-use crate::trace::{Abort, End, Event, Plan, Record, Request, Sample, Trace};
-use cotama_models::missions::Mission;
+use crate::trace::{Abort, End, Event, Plan, Record, Request, RunFaults, Sample, Trace};
+use cotama_models::missions::faults::{Faults, PowerError};
+use cotama_models::missions::{Mission, Zone};
 use std::collections::HashMap;
 
-/// What a trace shows, in the order of the path.
+/// The view of a trace, in the order of the path.
 pub(super) struct View<'t> {
     pub(super) trace: &'t Trace,
     /// The mission, or why it cannot be read.
@@ -44,12 +45,12 @@ impl Step {
     }
 }
 
-/// A place where activities take time but no path.
+/// A place where activities, or something in the way, take time but no path.
 pub(super) struct Stop {
     pub(super) x_mm: u64,
     pub(super) start_us: u64,
     pub(super) end_us: u64,
-    /// How many activities.
+    /// Number of activities.
     pub(super) count: usize,
     pub(super) reached: bool,
 }
@@ -106,11 +107,33 @@ impl<'t> View<'t> {
         let ends = view.activities.iter().map(|step| step.x_end_mm);
         view.length_mm = ends.fold(view.length_mm, u64::max);
         view.find_stops();
+        view.find_waits();
         view.find_stretches();
         view
     }
 
-    /// Where and when the run ended.
+    /// Returns how far the real power was from that of the model, in thousandths of it: the zones
+    /// that the run came to, in the order of the path.
+    pub(super) fn power_errors(&self) -> Vec<(&Zone, i32)> {
+        let Ok(mission) = &self.mission else { return Vec::new() };
+        let given = match &self.trace.header.options.faults {
+            RunFaults::None => return Vec::new(),
+            RunFaults::Script => None,
+            RunFaults::File { source, text } => match Faults::parse(source, text, mission) {
+                Ok(faults) => Some(faults),
+                Err(_) => return Vec::new(),
+            },
+        };
+        let faults = given.as_ref().unwrap_or(&mission.run.faults);
+        let reached = self.last().0;
+        let zone = |it: &PowerError| Some((mission.zones.get(it.zone)?, it.permille));
+        let mut errors: Vec<(&Zone, i32)> = faults.power_errors.iter().filter_map(zone).collect();
+        errors.retain(|it| it.0.x_start.0 < reached && it.1 != 0);
+        errors.sort_by_key(|it| it.0.x_start);
+        errors
+    }
+
+    /// Returns place and time of the run's end.
     pub(super) fn last(&self) -> (u64, u64) {
         self.trace.records.last().map_or((0, 0), |record| (record.x_mm(), record.t_us()))
     }
@@ -180,6 +203,29 @@ impl<'t> View<'t> {
                 }),
             }
         }
+    }
+
+    /// Adds what stood in the way, or made the way longer, to the stops: each place once, in the
+    /// order of the path.
+    fn find_waits(&mut self) {
+        self.stops.extend(self.events.iter().filter(|it| it.lost_us > 0).map(|it| Stop {
+            x_mm: it.x_mm,
+            start_us: it.t_us.saturating_sub(it.lost_us),
+            end_us: it.t_us,
+            count: 0,
+            reached: true,
+        }));
+        self.stops.sort_by_key(|it| it.x_mm);
+        self.stops.dedup_by(|next, stop| {
+            let same = next.x_mm == stop.x_mm;
+            if same {
+                stop.start_us = stop.start_us.min(next.start_us);
+                stop.end_us = stop.end_us.max(next.end_us);
+                stop.count += next.count;
+                stop.reached |= next.reached;
+            }
+            same
+        });
     }
 
     fn find_stretches(&mut self) {

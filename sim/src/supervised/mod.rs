@@ -12,49 +12,43 @@
 //! ```
 
 mod conduct;
-mod effect;
-mod laptop;
 mod monitor;
 pub mod operator;
 mod plan;
 mod planted;
-pub mod robot;
 mod script;
 pub mod story;
 mod summary;
 mod world;
 
-pub use conduct::{Conduct, Decided, Fired};
+pub use crate::body::{PERIOD, Planted};
+pub use conduct::{Conduct, Fired};
 pub use cotama_models::cotama::Judged;
-pub use effect::{Effect, Ends, Motion, effect};
-pub(crate) use effect::{observable, raises};
 pub use monitor::{Monitor, Unmonitored, Violation};
 pub use operator::Answers;
-pub use planted::Planted;
 pub use script::{Injection, Script, When};
-pub use world::{PERIOD, PLANNING};
 
-use crate::options::{Aim, Planner};
+use crate::options::Planner;
 use crate::record::{Recorder, Silent};
 use crate::run::{NoPlan, Outcome, PlanMade};
 use cotama_core::net::Net;
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::player::{Packed, Program};
-use cotama_core::system::{Component, System, SystemDefect};
+use cotama_core::system::{Component, System, SystemError};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{Configuration, Told, delivery, global, recovering};
 use cotama_models::missions::{Does, Mission};
 use world::{CLOCKS, World};
 
-/// What a supervised run comes to.
+/// The result of a supervised run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     /// How it ended: completed, safe (the global supervisor gave up and the robot stands), or
     /// failed.
     pub outcome: Outcome,
-    /// When.
+    /// Time at the end.
     pub time: Millis,
-    /// Where.
+    /// Position at the end.
     pub x: Millimetres,
     /// Duration and energy used, in ms and mJ.
     pub used: [u64; 2],
@@ -62,13 +56,13 @@ pub struct Run {
     pub quality: u64,
     /// How often the operator was asked by the supervisors.
     pub operator_requests: u64,
-    /// What the supervisors were told, with the number of the round after which.
+    /// Events that the supervisors accepted, each with the number of the round before it.
     pub told: Vec<(u64, Told)>,
     /// How many rounds there were.
     pub rounds: u64,
-    /// What fired.
+    /// The firings.
     pub fired: Vec<Fired>,
-    /// What became of each failure, in the order of their happening.
+    /// The conduct on each failure, in the order of their happening.
     pub conduct: Vec<Conduct>,
     /// Which configuration ran from when on; none while none did.
     pub configurations: Vec<(Millis, Option<Configuration>)>,
@@ -122,7 +116,7 @@ pub struct Supervised<'m> {
 /// The decisional level, packed.
 #[derive(Clone, Debug)]
 enum Supervisors {
-    /// That of the embedded mission.
+    /// The global supervisor of the embedded mission.
     Delivery,
     /// The same where modules may return.
     Recovering,
@@ -135,16 +129,16 @@ enum Supervisors {
 /// Words of a marking that suffice for the most objectives of a mission.
 const WORDS: usize = 16;
 
-/// What can wait in the mailboxes of the supervisors, whatever the objectives.
+/// The most events that can wait in the mailboxes of the supervisors, whatever the objectives.
 const SLOTS: usize = recovering::SIZE.slots;
 
 /// Why a mission has no supervisors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unsupervised {
-    /// Its file says nothing of them.
+    /// The mission's file says nothing of supervisors.
     Plain,
-    /// Its global supervisor does not fit the others.
-    Unfit(SystemDefect),
+    /// The global supervisor does not fit the others.
+    Unfit(SystemError),
 }
 
 impl std::fmt::Display for Unsupervised {
@@ -162,14 +156,10 @@ impl std::fmt::Display for Unsupervised {
 
 impl std::error::Error for Unsupervised {}
 
-/// Who plans unless it is said otherwise: the rule of the paper fills the limits, and would choose
-/// the most degraded configuration where there is time for it.
-pub const PLANNER: Planner = Planner::Exact { aim: Aim::Quality, steps: 100_000 };
-
 impl<'m> Supervised<'m> {
     /// Makes a mission ready: the supervisors of the embedded one, with a global supervisor of its
     /// own where its objectives are others, and those that use again what returns where it asks for
-    /// them; [`PLANNER`] plans.
+    /// them; [the planner of the mission](Planner::of) plans.
     ///
     /// # Errors
     /// When its file names no supervision.
@@ -190,7 +180,8 @@ impl<'m> Supervised<'m> {
 
     fn with(mission: &'m Mission, supervisors: Supervisors) -> Self {
         let (planted, monitors) = (Vec::new(), Vec::new());
-        Self { mission, supervisors, planner: PLANNER, planted, monitors, compared: false }
+        let planner = Planner::of(mission);
+        Self { mission, supervisors, planner, planted, monitors, compared: false }
     }
 
     /// A property of its supervisors, to be watched: see [`Monitor`].
@@ -224,6 +215,17 @@ impl<'m> Supervised<'m> {
     pub fn compared(self) -> Option<Self> {
         let given = matches!(self.supervisors, Supervisors::Given(..));
         given.then_some(Self { compared: true, ..self })
+    }
+
+    /// Not held against those that are shipped.
+    #[must_use]
+    pub(crate) fn uncompared(self) -> Self {
+        Self { compared: false, ..self }
+    }
+
+    /// Returns the planner.
+    pub const fn planner(&self) -> Planner {
+        self.planner
     }
 
     /// Plans are made by this planner.

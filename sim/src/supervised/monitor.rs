@@ -10,8 +10,8 @@ use cotama_core::player::{Player, Program};
 use cotama_core::system::{Delivery, Of, System};
 use cotama_core::units::Millis;
 use cotama_models::cotama::Cause;
-use cotama_verification::property::{self, Condition, Formula, Marking, PropertyError, Question};
-use cotama_verification::pt::Pt;
+use cotama_property::pt::Pt;
+use cotama_property::{self as property, Condition, Formula, Marking, PropertyError, Question};
 use std::fmt;
 
 /// A property of the supervisors, made to be watched.
@@ -43,7 +43,7 @@ pub struct Monitor {
 #[derive(Clone, Debug)]
 enum Part {
     Always(Condition<'static>),
-    /// What begins is answered within a time.
+    /// The condition is answered within a time.
     Answer {
         begins: Condition<'static>,
         ends: Condition<'static>,
@@ -51,7 +51,7 @@ enum Part {
     },
 }
 
-/// Where the tokens of a place are.
+/// The location of a place's tokens.
 #[derive(Clone, Copy, Debug)]
 enum Slot {
     /// Between two rounds.
@@ -76,7 +76,7 @@ enum Slot {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unmonitored {
-    /// It cannot be read, or names what is not there.
+    /// The text cannot be read, or names parts that do not exist.
     Unreadable(Box<PropertyError>),
     /// A single run does not break it at some time.
     NotOnLine,
@@ -110,11 +110,11 @@ impl std::error::Error for Unmonitored {}
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
-    /// When.
+    /// Time of the violation.
     pub at: Millis,
     /// Which of the run's monitors, from 0.
     pub monitor: usize,
-    /// What fired last, in one round, as `ls.l5`, in its order.
+    /// The last firings, in one round, as `ls.l5`, in their order.
     pub fired: Vec<String>,
 }
 
@@ -131,7 +131,7 @@ impl Monitor {
         Ok(Self { text: property.name, parts, slots })
     }
 
-    /// Its text.
+    /// Returns the text.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -164,7 +164,7 @@ fn places(system: &System<'_>) -> (Pt, Vec<Slot>) {
     (Pt::from(&net.view().net()), slots)
 }
 
-/// What is to be watched for a formula; none if that is not all of it.
+/// Returns the parts to be watched for a formula; `None` if they are not all of it.
 fn parts(formula: &Formula) -> Option<Vec<Part>> {
     match formula {
         Formula::And(all) => {

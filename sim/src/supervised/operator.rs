@@ -8,12 +8,12 @@ use std::collections::VecDeque;
 /// How long he takes to answer a request, to look around, and to edit: assumed.
 pub const ANSWERS_AFTER: Millis = Millis(8_000);
 
-/// What he answers to a request.
+/// The answers of the operator to a request.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Answers {
     /// To the first request from there on.
     pub x: Millimetres,
-    /// What, one after the other.
+    /// The answers, one after the other.
     pub answers: Vec<Answer>,
     /// After how long each.
     pub delay: Millis,
@@ -29,11 +29,11 @@ pub(super) struct Operator {
     place: local::State,
 }
 
-/// What the operator knows of the robot.
+/// The operator's knowledge of the robot.
 #[allow(clippy::struct_excessive_bools, reason = "each is a thing he sees or not")]
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
-    /// Where the local supervisor is, and the robot on its path.
+    /// Place of the local supervisor, and position of the robot on its path.
     pub(super) place: local::State,
     pub(super) x: Millimetres,
     /// The link to him works.
@@ -56,7 +56,7 @@ impl Operator {
         Self { script, next: VecDeque::new(), delay: ANSWERS_AFTER, since: Millis(0), place }
     }
 
-    /// What he says now, if anything.
+    /// Returns the word of the operator now, if any.
     pub(super) fn says(&mut self, now: Millis, view: View) -> Option<operator::Event> {
         use local::State as Place;
         if view.place != self.place {
@@ -99,7 +99,7 @@ impl Operator {
     }
 }
 
-/// What he does without a script.
+/// Returns the answers of the operator without a script.
 fn habit(view: View) -> VecDeque<Answer> {
     use Answer::{Goal, Path, Teleoperate, Teleprogram, Waypoints};
     VecDeque::from(match view {

@@ -2,14 +2,13 @@
 //! limits.
 //!
 //! Configurations of the adapter are task implementation options (Lambert et al., J. Intell. Robot.
-//! Syst. 110, 2024, Section 4), modules are their hardware. A lost module removes options and the
-//! rest of the mission is planned again.
+//! Syst. 110, 2024, Section 6.2.2), modules are their hardware. A lost module removes options, and
+//! the rest of the mission is planned again (Section 7.3.2).
 
 use crate::options::Planner;
 use crate::run::{NoPlan, PlanCause, PlanMade};
-use crate::solver::Solver;
+use crate::solver::{Left, Solver};
 use cotama_core::hardware::Equipment;
-use cotama_core::problem::{Candidate, Problem};
 use cotama_core::units::{MillimetresPerSecond, Millis, Milliwatts};
 use cotama_models::cotama::{Configuration, Modules};
 use cotama_models::missions::Mission;
@@ -20,7 +19,7 @@ use cotama_models::missions::tables::{Activity, Alternative, Rest};
 pub(super) struct Progress {
     /// The activity under way, or the next one.
     pub(super) activity: usize,
-    /// What is left of it; none when it is whole.
+    /// Rest of the current activity; `None` when it is whole.
     pub(super) rest: Option<Rest>,
     /// When, where (mm), and what was used (ms, mJ).
     pub(super) now: Millis,
@@ -74,54 +73,37 @@ impl<'m> Planning<'m> {
         let units = self.units(available);
         let scenario = self.mission.scenario();
         let first = at.activity;
-        let lists: Vec<Vec<Candidate<2>>> = self.activities[first..]
-            .iter()
-            .enumerate()
-            .map(|(number, activity)| {
-                let rest = at.rest.filter(|_| number == 0);
-                let working =
-                    activity.alternatives.iter().zip(0..).filter(|(it, _)| units.covers(it.needs));
-                working
-                    .filter_map(|(it, id)| {
-                        it.candidate(rest.unwrap_or_else(|| activity.whole(it)), id)
-                    })
-                    .collect()
-            })
-            .collect();
-        if let Some(emptied) = lists.iter().position(Vec::is_empty) {
-            return Err(NoPlan::Emptied { activity: first + emptied });
-        }
-        let lists: Vec<&[Candidate<2>]> = lists.iter().map(Vec::as_slice).collect();
-        let left = std::array::from_fn(|axis| scenario.limits[axis].saturating_sub(at.used[axis]));
-        let Ok(problem) = Problem::new(&lists, left, scenario.order) else {
-            return Err(NoPlan::Unknown { steps: 0 });
+        let limits =
+            std::array::from_fn(|axis| scenario.limits[axis].saturating_sub(at.used[axis]));
+        let left = Left {
+            activities: &self.activities,
+            first,
+            rest: at.rest,
+            available: units,
+            known: None,
+            limits,
+            order: scenario.order,
         };
-        let found = self.solver.solve(self.planner, &problem)?;
-        let picked: Vec<Candidate<2>> = lists
-            .iter()
-            .zip(&self.solver.plan)
-            .map(|(list, &index)| list[usize::from(index)])
-            .collect();
-        let choice: Vec<u16> = picked.iter().map(|it| it.id).collect();
-        let signed_left = left.map(signed);
+        let proposal = self.solver.propose(self.planner, &left)?;
+        let signed_left = limits.map(signed);
         let before = (!self.made.is_empty()).then(|| {
             let rest = self.rest(at).map(signed);
             [signed_left[0] - rest[0], signed_left[1] - rest[1]]
         });
-        self.choice[first..].copy_from_slice(&choice);
-        let margin = |axis: usize| signed_left[axis] - signed(found.planned.cost[axis]);
+        self.choice[first..].copy_from_slice(&proposal.choice);
+        let margin = |axis: usize| signed_left[axis] - signed(proposal.planned.cost[axis]);
         self.made.push(PlanMade {
             cause,
             t_us: at.now.0.saturating_mul(1000),
             x_mm: at.x_mm,
             first_activity: first,
-            choice,
+            choice: proposal.choice,
             before,
             after: [margin(0), margin(1)],
             used: at.used,
-            first_cost: picked.first().map_or([0; 2], |it| it.cost),
-            steps: found.planned.steps,
-            allocator: found.allocator,
+            first_cost: proposal.first_cost,
+            steps: proposal.planned.steps,
+            allocator: proposal.allocator,
         });
         Ok(())
     }
@@ -133,7 +115,7 @@ impl<'m> Planning<'m> {
         { left }.all(|(it, &id)| units.covers(it.alternatives[usize::from(id)].needs))
     }
 
-    /// What is left of the plan in force takes, in ms and mJ.
+    /// Returns the cost of the rest of the plan in force, in ms and mJ.
     pub(super) fn rest(&self, at: Progress) -> [u64; 2] {
         let mut sum = [0; 2];
         for (activity, &id) in
@@ -170,8 +152,8 @@ impl<'m> Planning<'m> {
         { planned }.find_map(|(it, choice)| it[usize::from(*choice)])
     }
 
-    /// What an activity takes in a configuration: speed and power; the planned alternative when
-    /// none has it.
+    /// Returns the pace of an activity in a configuration: speed and power; that of the planned
+    /// alternative when none has it.
     pub(super) fn pace(
         &self,
         activity: usize,
@@ -179,6 +161,17 @@ impl<'m> Planning<'m> {
     ) -> (MillimetresPerSecond, Milliwatts) {
         let alternative = self.driven(activity, configuration);
         (alternative.speed, alternative.power)
+    }
+
+    /// Returns the power of standing in a configuration, with its hardware on.
+    pub(super) fn rest_power(
+        &self,
+        activity: usize,
+        configuration: Option<Configuration>,
+    ) -> Milliwatts {
+        let standing = self.mission.motion_power.at(MillimetresPerSecond(0));
+        let hardware = self.mission.power_of(self.driven(activity, configuration).needs);
+        Milliwatts(standing.0.saturating_add(hardware.0))
     }
 
     /// The quality per 100 mm of a configuration; that of the planned alternative when none has it.
@@ -233,7 +226,7 @@ mod tests {
     fn a_plan_that_fills_a_limit_to_the_last_unit_keeps_it() {
         let delivery = embedded::mission("delivery").unwrap();
         let mission = Mission::parse(delivery.name, delivery.text).unwrap();
-        let mut planning = Planning::new(&mission, crate::supervised::PLANNER);
+        let mut planning = Planning::new(&mission, Planner::of(&mission));
         let start = Progress { activity: 0, rest: None, now: Millis(0), x_mm: 0, used: [0; 2] };
         planning.plan(PlanCause::Start, start, Modules::ALL).unwrap();
         let rest = planning.rest(start);
@@ -246,12 +239,12 @@ mod tests {
     }
 
     #[test]
-    fn where_an_activity_begins_it_is_under_way() {
+    fn an_activity_is_under_way_at_its_start() {
         let delivery = embedded::mission("delivery").unwrap();
         let zone = "[[zone]]\nid = \"hall\"\nx_start_mm = 60000\nx_end_mm = 70000\n[run]";
         let text = delivery.text.replacen("[run]", zone, 1);
         let mission = Mission::parse(delivery.name, &text).unwrap();
-        let planning = Planning::new(&mission, crate::supervised::PLANNER);
+        let planning = Planning::new(&mission, Planner::of(&mission));
         let at = |x_mm: u64| planning.activity(2, x_mm);
         // The first drive, the object, and three parts of the second drive.
         assert_eq!([40_000, 59_999, 60_000, 69_999, 70_000, 80_000].map(at), [2, 2, 3, 3, 4, 4]);

@@ -1,4 +1,4 @@
-//! What goes wrong in a supervised run, and what the operator answers.
+//! The faults of a supervised run, and the answers of the operator.
 
 use super::operator::Answers;
 use cotama_models::cotama::{FailureMode, Module};
@@ -7,7 +7,7 @@ use cotama_models::missions::faults::{Faults, IncidentKind, Moment};
 /// When something is to fail.
 pub use cotama_models::missions::faults::Moment as When;
 
-/// What goes wrong, and what the operator answers.
+/// The faults, and the answers of the operator.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Script {
     /// Failures, each once.
@@ -48,22 +48,22 @@ impl From<&Faults> for Script {
 ///
 /// ```
 /// use cotama_core::units::Millis;
-/// use cotama_models::cotama::FailureMode;
+/// use cotama_models::cotama::{Class, FailureMode};
 /// use cotama_models::missions::{Mission, embedded};
-/// use cotama_sim::supervised::{Decided, Injection, Script, Supervised, When};
+/// use cotama_sim::supervised::{Injection, Script, Supervised, When};
 /// let delivery = embedded::mission("delivery").unwrap();
 /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
 /// let failure = Injection::new(When::At(Millis(20_000)), FailureMode::Rt1);
 /// let script = Script { injections: vec![failure], ..Script::default() };
 /// let run = Supervised::new(&mission).unwrap().run(&script).unwrap();
 /// // Localisation is late again and again: an adapter takes fewer particles.
-/// assert_eq!(run.conduct[0].decided.unwrap().1, Decided::Adapter);
+/// assert_eq!(run.conduct[0].decided.unwrap().1, Class::Adapter);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Injection {
-    /// When.
+    /// The moment of the failure.
     pub when: When,
-    /// What fails.
+    /// The failure mode.
     pub mode: FailureMode,
     /// Which module, if the failure is one of a module, whichever it is.
     pub part: Module,

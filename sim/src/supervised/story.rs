@@ -7,7 +7,7 @@
 
 use crate::trace::Record;
 use crate::trace::supervised::{Configured, Decision, Diagnosis, Failure, Fired, Told};
-use cotama_models::cotama::FailureMode;
+use cotama_models::cotama::{Class, FailureMode, Mode};
 use std::collections::HashMap;
 
 /// A point of the story.
@@ -17,9 +17,9 @@ pub struct Point<'t> {
     pub number: usize,
     /// When, in µs.
     pub t_us: u64,
-    /// Where, in mm.
+    /// Position, in mm.
     pub x_mm: u64,
-    /// What happened.
+    /// The event.
     pub what: What<'t>,
     /// When the operator, or who gave the mission, had acted, in µs; none for a failure.
     pub acted_us: Option<u64>,
@@ -27,7 +27,7 @@ pub struct Point<'t> {
     pub configured: Option<&'t Configured>,
 }
 
-/// What happened at a point.
+/// The event at a point.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum What<'t> {
     /// The mission was received, or the object, with the name of that event: where the drive
@@ -45,15 +45,15 @@ pub enum What<'t> {
 pub struct Chain<'t> {
     /// The failure.
     pub failure: &'t Failure,
-    /// What it was taken for; none if nobody noticed it.
+    /// The diagnosis; `None` if nobody noticed the failure.
     pub diagnosis: Option<&'t Diagnosis>,
-    /// What was decided.
+    /// The decision.
     pub decision: Option<&'t Decision>,
     /// The transitions of the supervisors that acted first, all of one round.
     pub reaction: Vec<&'t Fired>,
     /// When the operator was asked about it, in µs.
     pub asked_us: Option<u64>,
-    /// What the operator did, if the robot did not go on alone after it.
+    /// Words of the operator, if the robot did not go on alone after it.
     pub operator: Vec<&'t Told>,
     /// Whether what is left was planned again.
     pub planned_again: bool,
@@ -63,7 +63,7 @@ pub struct Chain<'t> {
 
 /// How far up a reaction went, from the change of a number to the end of the mission: the first two
 /// and the fourth are levels of Durand et al. (TAROS 2010, Sections III.C and V.C), planning the
-/// rest again is that of Lambert et al. (J. Intell. Robot. Syst. 110, 2024, Section 5).
+/// rest again is that of Lambert et al. (J. Intell. Robot. Syst. 110, 2024, Section 7.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Rung {
     /// A module goes on with other parameters.
@@ -83,7 +83,7 @@ impl Rung {
     pub const ALL: [Self; 5] =
         [Self::Parameter, Self::Set, Self::Activity, Self::Objective, Self::Mission];
 
-    /// Its name.
+    /// Returns the name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Parameter => "parameter",
@@ -98,13 +98,14 @@ impl Rung {
 /// The points of a trace, in the order of time; none if it is not of a supervised run.
 ///
 /// ```
-/// use cotama_models::missions::embedded;
+/// use cotama_models::missions::{Mission, embedded};
 /// use cotama_sim::options::Options;
-/// use cotama_sim::supervised::{PLANNER, story::points};
+/// use cotama_sim::supervised::story::points;
 /// use cotama_sim::trace::Trace;
 /// let delivery = embedded::mission("delivery").unwrap();
-/// let options = Options { planner: PLANNER, ..Options::default() };
-/// let (trace, _) = Trace::record(delivery.name, delivery.text, &options).unwrap();
+/// let options = Options::default();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let (trace, _) = Trace::record(&mission, &options).unwrap();
 /// let points = points(&trace.records);
 /// assert_eq!(points.len(), 7);
 /// assert_eq!(points[1].title(), "RT1: MCL, deadline missed again and again");
@@ -139,13 +140,13 @@ pub fn points(records: &[Record]) -> Vec<Point<'_>> {
     points
 }
 
-/// What a drive begins with.
+/// Events that begin a drive.
 const STARTS: [&str; 2] = ["gs.mission_received", "gs.object_received"];
 
 /// A story while it is heard.
 #[derive(Default)]
 struct Story<'t> {
-    /// What began before anything happened.
+    /// Events that began before anything happened.
     starts: Vec<&'t Told>,
     points: Vec<Point<'t>>,
     configurations: Vec<&'t Configured>,
@@ -154,7 +155,7 @@ struct Story<'t> {
     /// The failures of the last diagnosis.
     diagnosed: Vec<u16>,
     diagnosed_us: u64,
-    /// What the operator said since he was asked, and about which failure.
+    /// Words of the operator since he was asked, and the failure asked about.
     said: Vec<&'t Told>,
     asked: Option<u16>,
 }
@@ -231,7 +232,7 @@ impl<'t> Story<'t> {
         }
     }
 
-    /// What the operator did belongs to the failure that he was asked about.
+    /// Assigns the words of the operator to the failure that he was asked about.
     fn belongs(&mut self) {
         let said = std::mem::take(&mut self.said);
         if let Some(chain) = self.asked.and_then(|it| self.chain(it)) {
@@ -268,7 +269,7 @@ impl<'t> Chain<'t> {
 }
 
 impl Point<'_> {
-    /// What happened, in words.
+    /// Returns the event, in words.
     pub fn title(&self) -> String {
         match &self.what {
             What::Start(event) => {
@@ -292,7 +293,7 @@ impl Point<'_> {
         }
     }
 
-    /// What the observers found; none but for failures.
+    /// Returns the finding of the observers; `None` but for failures.
     pub fn found(&self) -> Option<String> {
         let chain = self.chain()?;
         let Some(it) = chain.diagnosis else { return Some("nobody noticed it".into()) };
@@ -304,12 +305,13 @@ impl Point<'_> {
         Some(format!("after {}, {}: {taken}", self.since(it.t_us), it.flags.join(" and ")))
     }
 
-    /// What was decided, and why; none but for failures on which something was decided.
+    /// Returns the decision, with its reason; `None` but for failures on which something was
+    /// decided.
     pub fn decided(&self) -> Option<String> {
         let chain = self.chain()?;
         let decision = chain.decision?;
-        let what = match decision.decision.as_str() {
-            "adapter" => match decision.event.as_deref() {
+        let what = match decision.decision {
+            Class::Adapter => match decision.event.as_deref() {
                 Some("adapt_rt") => "the adapter takes fewer particles",
                 Some("adapt_mcl") => "the adapter takes odometry",
                 Some("adapt_bump") => "the adapter slows down",
@@ -320,28 +322,28 @@ impl Point<'_> {
                 }
                 _ => "the adapter does without sonars",
             },
-            "local" => "the operator is asked",
-            "global" => "the mission is ended safely",
-            _ => "it is recorded only",
+            Class::Local => "the operator is asked",
+            Class::Global => "the mission is ended safely",
+            Class::Record => "it is recorded only",
         };
         let by = decision.transition.as_ref().map_or_else(String::new, |it| format!(" ({it})"));
         let why = chain.diagnosis.map_or_else(String::new, |it| {
-            let left = match it.by_availability.as_str() {
-                "adapter" => ", and another set of modules is left",
-                "local" => ", and only another autonomy mode is left",
-                "global" => ", and no autonomy mode is left",
-                _ => "",
+            let left = match it.by_availability {
+                Class::Adapter => ", and another set of modules is left",
+                Class::Local => ", and only another autonomy mode is left",
+                Class::Global => ", and no autonomy mode is left",
+                Class::Record => "",
             };
-            format!("{}{left}, so ", it.severity)
+            format!("{}{left}, so ", it.severity.name())
         });
         Some(format!("after {}: {why}{what}{by}", self.since(decision.t_us)))
     }
 
-    /// What the robot did then.
+    /// Returns the reaction of the robot.
     pub fn done(&self) -> Option<String> {
-        let runs = self.configured.map(|it| match (&it.configuration, it.mode.as_str()) {
-            (Some(configuration), mode) => format!("{configuration} runs, {mode}"),
-            (None, "hand-over") => "it stops and asks".into(),
+        let runs = self.configured.map(|it| match (&it.configuration, it.mode) {
+            (Some(configuration), mode) => format!("{configuration} runs, {}", mode.name()),
+            (None, Mode::HandOver) => "it stops and asks".into(),
             (None, _) => "nothing runs any more".into(),
         });
         let Some(chain) = self.chain() else { return runs };
@@ -405,12 +407,12 @@ impl Point<'_> {
     }
 }
 
-/// What the operator answered.
+/// Returns the answer of the operator.
 fn answer(told: &Told) -> &str {
     told.event.strip_prefix("operator.").unwrap_or(&told.event)
 }
 
-/// What the operator does, in words.
+/// Returns the action of the operator, in words.
 fn said(answer: &str) -> &str {
     match answer {
         "teleoperate" => "the operator drives",

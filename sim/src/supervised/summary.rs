@@ -1,4 +1,4 @@
-//! What a supervised run comes to, in the terms of every run.
+//! The result of a supervised run, in the terms of every run.
 
 use super::Run;
 use crate::run::{EventCounts, LONGEST, Outcome, Reason};

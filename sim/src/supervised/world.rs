@@ -5,23 +5,18 @@
 //! them. So a run is a run of the system that was checked, and the list of what was told, a round
 //! each, is all that is needed to check that it is one.
 
-use super::effect::{Ends, FIRMWARE_WATCHDOG, Motion, effect};
-use super::laptop::{Disturbances, Laptop, Seen, jobs};
 use super::monitor::Watching;
 use super::operator::Operator;
 use super::plan::{Planning, Progress};
-use super::robot::Robot;
-use super::{Conduct, Fired, Injection, Planted, Run, Script, Supervised, When, shipped};
+use super::{Conduct, Fired, Injection, Run, Script, Supervised, When, shipped};
+use crate::body::{PERIOD, Planted, Robot, Watch};
 use crate::options::Planner;
 use crate::run::{LONGEST, NoPlan, Outcome, PlanCause};
 use cotama_core::net::Net;
 use cotama_core::player::Program;
 use cotama_core::system::System;
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::{
-    Configuration, Decider, DecisionalLevel, FailureMode, Flags, Health, Module, Modules, load,
-    local, recovering,
-};
+use cotama_models::cotama::{Decider, DecisionalLevel, Flags, Modules, local, recovering};
 use cotama_models::missions::Mission;
 use cotama_models::missions::faults::Act;
 use objective::Objective;
@@ -35,37 +30,8 @@ mod telling;
 
 pub(super) use records::Recorded;
 
-/// The period of the control loop, of rounds, and of the steps of the robot (stated: below 0.1 s a
-/// loop).
-pub const PERIOD: Millis = Millis(100);
-/// How long planning a path takes: assumed.
-pub const PLANNING: Millis = Millis(2_000);
 /// No supervisor has an interval, whatever the objectives.
 pub(super) const CLOCKS: usize = recovering::SIZE.clocks;
-
-/// A failure under way; its number is its place in [`Run::conduct`].
-#[derive(Clone, Copy, Debug)]
-struct Failure {
-    mode: FailureMode,
-    part: Modules,
-    until: Option<When>,
-    /// For how long its observer has been able to see it.
-    seen: Millis,
-    /// For how long an observer at work should have been.
-    shown: Millis,
-    since: Millis,
-    over: bool,
-    /// Its flags have gone back.
-    lowered: bool,
-}
-
-impl Failure {
-    /// What it does to motion; without the scheduler nothing is commanded.
-    fn motion(&self) -> Motion {
-        let scheduler = self.mode == FailureMode::Sw1 && self.part.has(Module::Sch);
-        if scheduler && !self.over { Motion::Mindless } else { effect(self.mode).motion }
-    }
-}
 
 /// When a transition fired for the first time.
 fn first_fired(fired: &[Fired], act: Act) -> Option<Millis> {
@@ -85,14 +51,11 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     /// Which failure each finding of the decisional level goes back to, from 1; 0 for none.
     causes: Vec<u16>,
     now: Millis,
+    /// The failures of the robot have the numbers of [`Run::conduct`].
     robot: Robot,
-    laptop: Laptop,
-    /// Rounds since a report was told.
-    quiet: u32,
+    /// When each failure ends, if not by itself.
+    until: Vec<Option<When>>,
     operator: Operator,
-    failures: Vec<Failure>,
-    /// What is broken, and what works in spite of it.
-    works: (Health, Modules),
     planning: Planning<'m>,
     /// Since when the global supervisor is where it is, and when each place of the local one was
     /// first reached.
@@ -102,7 +65,6 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     /// The place at which the permit was withdrawn.
     withdrawn: Option<Millimetres>,
     exposed: Millis,
-    energy_uj: u64,
     /// Quality of what was driven, in thousandths per mm.
     quality: u64,
     run: Run,
@@ -137,19 +99,15 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
             decider,
             causes: Vec::new(),
             now: Millis(0),
-            robot: Robot::default(),
-            laptop: Laptop::new(),
-            quiet: 0,
+            robot: Robot::new(),
+            until: Vec::new(),
             operator: Operator::new(script.answers.iter().cloned()),
-            failures: Vec::new(),
-            works: (Health::SOUND, Modules::ALL),
             planning,
             global_since: Millis(0),
             first: Vec::new(),
             permitted: false,
             withdrawn: None,
             exposed: Millis(0),
-            energy_uj: 0,
             quality: 0,
             run: Run {
                 outcome: Outcome::Failed,
@@ -194,13 +152,15 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
 
     /// One period; whether the mission is over.
     pub(super) fn period(&mut self) -> bool {
-        let (before, adjusted) = (self.robot, self.decider.requests().adjusted);
+        let (before, adjusted) = (self.robot.drive, self.decider.requests().adjusted);
         self.calm = true;
         self.fail();
         self.travel();
-        self.calm &= self.thinks() && self.robot.is_steady_since(&before, PERIOD);
-        if self.thinks() {
-            let seen = self.compute();
+        self.calm &= self.robot.thinks() && self.robot.drive.is_steady_since(&before, PERIOD);
+        if self.robot.thinks() {
+            let (situation, available) = (self.decider.situation(), self.decider.available());
+            let (seen, steady) = self.robot.compute(self.now, situation, available);
+            self.calm &= steady;
             self.observe(seen);
             self.take_a_round();
         }
@@ -210,10 +170,10 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
             _ if self.run.violated.is_some() || self.run.departed.is_some() => {
                 Some(Outcome::Failed)
             }
-            Objective::Done => Some(self.accomplished()),
+            Objective::Done => Some(self.within(Outcome::Completed)),
             // Safe by itself.
-            _ if self.is_left_standing() => Some(Outcome::Safe),
-            Objective::Safe if self.robot.speed().0 == 0 => Some(Outcome::Safe),
+            _ if self.is_left_standing() => Some(self.within(Outcome::Safe)),
+            Objective::Safe if !self.robot.moves() => Some(self.within(Outcome::Safe)),
             _ if self.now >= LONGEST => Some(Outcome::Failed),
             _ => None,
         };
@@ -240,34 +200,36 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         self.run.time = self.now;
         self.run.x = self.robot.x();
         self.run.used = self.used();
+        self.run.unseen = self.robot.unseen;
+        self.run.oldest_pose = self.robot.oldest_pose;
         self.run.quality = self.quality / 100_000;
         self.run.plans = self.planning.made;
         self.run
     }
 
-    /// Whether the laptop is up, and its scheduler.
-    fn thinks(&self) -> bool {
-        !self.failures.iter().any(|it| it.motion() == Motion::Mindless)
-    }
-
     /// Whether the laptop is down and the robot stands: nothing was commanded, or the
     /// micro-controller commands nothing any more. Until then who is held up may go on.
     fn is_left_standing(&self) -> bool {
-        let long_since = |it: &Failure| {
-            it.motion() == Motion::Mindless && self.now.0 >= it.since.0 + FIRMWARE_WATCHDOG.0
-        };
-        let is_stopped = self.decider.permit().is_none() || self.failures.iter().any(long_since);
-        !self.thinks() && self.robot.speed().0 == 0 && is_stopped
+        let is_stopped = self.decider.permit().is_none() || self.robot.is_abandoned(self.now);
+        !self.robot.thinks() && !self.robot.moves() && is_stopped
     }
 
-    /// How a mission ends whose objectives are done.
-    fn accomplished(&self) -> Outcome {
+    /// The state of the decisional level that observers depend on.
+    fn watch_of(&self) -> Watch<'m> {
+        // Observers are looked up only where there is something to see.
+        let sound = self.robot.failures.is_empty();
+        let observing = if sound { Modules::ALL } else { self.decider.observing() };
+        Watch { situation: self.decider.situation(), observing, planted: self.planted }
+    }
+
+    /// How a mission ends that ends so within its limits.
+    fn within(&self, outcome: Outcome) -> Outcome {
         let limits = self.mission.scenario().limits;
         let within = self.used().iter().zip(limits).all(|(used, limit)| *used <= limit);
-        if within { Outcome::Completed } else { Outcome::Failed }
+        if within { outcome } else { Outcome::Failed }
     }
 
-    /// What is to fail now fails.
+    /// Injects the failures that are due.
     fn fail(&mut self) {
         let (now, x, first, fired) = (self.now, self.robot.x(), &self.first, &self.run.fired);
         let due = |when: When| match when {
@@ -282,26 +244,12 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         };
         let (fail, wait) = self.waiting.iter().partition::<Vec<_>, _>(|it| due(it.when));
         self.waiting = wait;
-        for failure in &mut self.failures {
-            let past = |time: Millis| now.0 >= failure.since.0 + time.0;
-            let by_itself = matches!(effect(failure.mode).ends, Ends::After(time) if past(time));
-            // A laptop that comes back has no mission any more.
-            let returns = effect(failure.mode).motion != Motion::Mindless;
-            failure.over |= returns && (by_itself || failure.until.is_some_and(due));
-        }
+        let until = &self.until;
+        self.robot.end_failures(now, |it| until[it].is_some_and(due));
         self.calm &= fail.is_empty();
         for Injection { mode, part, until, .. } in fail {
-            let part = Modules::of(&[part]);
-            self.failures.push(Failure {
-                mode,
-                part,
-                until,
-                seen: Millis(0),
-                shown: Millis(0),
-                since: now,
-                over: false,
-                lowered: false,
-            });
+            self.robot.fail(now, mode, part);
+            self.until.push(until);
             self.run.conduct.push(Conduct {
                 mode,
                 injected: now,
@@ -317,37 +265,6 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         }
     }
 
-    /// The modules that were asked for compute for a period, disturbed by what fails.
-    fn compute(&mut self) -> Seen {
-        let situation = self.decider.situation();
-        let runs = situation.configuration().unwrap_or(Configuration::Security);
-        let wanted = runs.scheduled().common(self.decider.available());
-        self.laptop.run(wanted, load::PARTICLES[usize::from(situation.level.min(2))]);
-        let mut disturbed = Disturbances::default();
-        for it in self.failures.iter().filter(|it| !it.over) {
-            match it.mode {
-                FailureMode::Rt1 => disturbed.programs += 1,
-                FailureMode::Rt2 => disturbed.hiccup |= it.since == self.now,
-                FailureMode::Rt3 => disturbed.slow = disturbed.slow.union(jobs(it.part)),
-                FailureMode::Sw1 => disturbed.crashed = disturbed.crashed.union(jobs(it.part)),
-                _ => {}
-            }
-        }
-        let seen = self.laptop.work(disturbed);
-        self.calm &= self.laptop.is_steady(disturbed) && !disturbed.hiccup;
-        let used = runs.facts().required.has(Module::Mcl) && self.robot.speed().0 > 0;
-        if let (true, Some(age)) = (used, self.laptop.age(Module::Mcl)) {
-            self.run.oldest_pose = self.run.oldest_pose.max(age);
-        }
-        seen
-    }
-
-    /// What is broken, known or not.
-    fn broken(&self) -> Health {
-        let broken = self.failures.iter().filter(|it| !it.over).map(|it| it.mode.health(it.part));
-        broken.fold(Health::SOUND, Health::union)
-    }
-
     /// The activity under way.
     fn activity(&self) -> usize {
         let last = self.mission.scenario().activities.len() - 1;
@@ -356,6 +273,6 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
 
     /// Duration and energy used, in ms and mJ.
     pub(super) fn used(&self) -> [u64; 2] {
-        [self.now.0, self.energy_uj / 1000]
+        [self.now.0, self.robot.energy_uj / 1000]
     }
 }

@@ -1,16 +1,54 @@
 //! Writing a trace as JSON lines, and reading it back.
 
-use super::{Header, Record, SCHEMA, Trace};
+use crate::canonical::{self, Differing, Read};
+use cotama_formats::json::Wrong;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use std::fmt;
+
+/// A whole trace: of a mission, or with its own header and records of
+/// [a team](crate::fleet::trace).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TraceOf<H, R> {
+    /// The settings of the run: enough to run it again.
+    pub header: H,
+    /// The events, in the order of time; the last one is the end.
+    pub records: Vec<R>,
+    /// The first thing of a file that no record of ours has, with the number of its record, from
+    /// 0 for the header; none in a trace that was recorded.
+    pub foreign: Option<(usize, Differing)>,
+}
+
+/// The first line of a trace.
+pub trait Head: Serialize + DeserializeOwned {
+    /// The schema that it names.
+    const SCHEMA: &'static str;
+
+    /// Returns the schema that was found.
+    fn schema(&self) -> &str;
+
+    /// The same by another version of the program.
+    #[must_use]
+    fn by_version_of(self, other: &Self) -> Self;
+}
+
+/// A line after the first one.
+pub trait Line: Serialize + DeserializeOwned + PartialEq {
+    /// The time since the start, in the unit of the trace.
+    fn time(&self) -> u64;
+
+    /// Whether it is the last one.
+    fn is_end(&self) -> bool;
+}
 
 /// The largest trace that is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Of the whole text, in bytes.
+    /// Size of the whole text, in bytes.
     pub bytes: usize,
-    /// Of one line, in bytes.
+    /// Size of one line, in bytes.
     pub line_bytes: usize,
-    /// Of records after the header.
+    /// Number of records after the header.
     pub records: usize,
 }
 
@@ -21,12 +59,12 @@ impl Default for Limits {
     }
 }
 
-/// What is wrong with the text of a trace, and where.
+/// An error in the text of a trace, with its position.
 ///
 /// ```
 /// use cotama_sim::trace::Trace;
 /// let error = Trace::parse("t.jsonl", "{\"schema\":\"cotama-trace/1\"}\n").unwrap_err();
-/// assert_eq!(error.to_string(), "t.jsonl:1:27: missing field `version`");
+/// assert_eq!(error.to_string(), "t.jsonl:1:27: `version` is missing");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TraceError {
@@ -36,7 +74,7 @@ pub struct TraceError {
     pub line: usize,
     /// The column, from 1, in bytes.
     pub column: usize,
-    /// What is wrong.
+    /// The cause of the error.
     pub message: String,
 }
 
@@ -53,7 +91,7 @@ fn line<T: serde::Serialize>(value: &T) -> String {
     serde_json::to_string(value).unwrap_or_default()
 }
 
-impl Trace {
+impl<H: Head, R: Line> TraceOf<H, R> {
     /// The trace as JSON lines, the header first, with a line break after every line.
     pub fn to_json_lines(&self) -> String {
         let mut text = line(&self.header) + "\n";
@@ -98,11 +136,12 @@ impl Trace {
                 format!("the trace has {} bytes, at most {} are read", text.len(), limits.bytes);
             return Err(error(1, 1, message));
         }
-        let mut canonical = text.ends_with('\n') && !text.contains('\r');
-        let mut header: Option<Header> = None;
-        let mut records: Vec<Record> = Vec::new();
+        let mut foreign = None;
+        let mut header: Option<H> = None;
+        let mut records: Vec<R> = Vec::new();
         let mut last = 0;
-        for (number, written) in (1..).zip(text.lines()) {
+        let end = text.trim_end().len();
+        for (number, written) in (1..).zip(text[..end].lines()) {
             last = number;
             if written.len() > limits.line_bytes {
                 let message = format!(
@@ -112,45 +151,44 @@ impl Trace {
                 );
                 return Err(error(number, limits.line_bytes, message));
             }
-            let bad = |bad: serde_json::Error| {
-                let said = bad.to_string();
-                let message =
-                    said.rsplit_once(" at line ").map_or(said.as_str(), |(message, _)| message);
-                error(number, bad.column(), message.into())
-            };
+            if written.trim().is_empty() {
+                return Err(error(number, 1, "an empty line among the records".into()));
+            }
+            let bad = |bad: Wrong| error(number, bad.column, bad.message);
             if header.is_none() {
-                let found: Header = serde_json::from_str(written).map_err(bad)?;
-                if found.schema != SCHEMA {
+                let Read { record: found, foreign: more, .. } =
+                    canonical::read::<H>(written).map_err(bad)?;
+                if found.schema() != H::SCHEMA {
                     let message =
-                        format!("the schema is {:?}, only {SCHEMA:?} is read", found.schema);
+                        format!("the schema is {:?}, only {:?} is read", found.schema(), H::SCHEMA);
                     return Err(error(number, 1, message));
                 }
-                canonical &= line(&found) == written;
+                foreign = more.map(|it| (0, it));
                 header = Some(found);
                 continue;
             }
             if records.len() == limits.records {
                 return Err(error(number, 1, format!("more than {} records", limits.records)));
             }
-            let record: Record = serde_json::from_str(written).map_err(bad)?;
+            let Read { record, foreign: more, .. } = canonical::read::<R>(written).map_err(bad)?;
             let before = records.last();
-            if matches!(before, Some(Record::End(_))) {
+            if before.is_some_and(Line::is_end) {
                 return Err(error(number, 1, "a record after the end of the mission".into()));
             }
-            if before.is_some_and(|before| before.t_us() > record.t_us()) {
+            if before.is_some_and(|before| before.time() > record.time()) {
                 return Err(error(
                     number,
                     1,
                     "the time of this record is before that of the last".into(),
                 ));
             }
-            canonical &= line(&record) == written;
             records.push(record);
+            foreign = foreign.or(more.map(|it| (records.len(), it)));
         }
         let Some(header) = header else { return Err(error(1, 1, "the trace is empty".into())) };
-        if !matches!(records.last(), Some(Record::End(_))) {
+        if !records.last().is_some_and(Line::is_end) {
             return Err(error(last + 1, 1, "the trace stops before the end of the mission".into()));
         }
-        Ok(Self { header, records, canonical })
+        Ok(Self { header, records, foreign })
     }
 }

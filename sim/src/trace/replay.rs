@@ -1,8 +1,8 @@
 //! Recording a run, and running a recorded one again.
 
-use super::{Header, Record, RunFaults, RunOptions, RunUpward, SCHEMA, Trace};
+use super::{Difference, Header, Record, RunFaults, RunOptions, RunUpward, SCHEMA, Trace};
 use crate::faults_text::faults_text;
-use crate::options::{FaultChoice, Options};
+use crate::options::{FaultChoice, Options, Planner};
 use crate::run::{NoPlan, Run};
 use crate::setup::{SetupError, Simulation};
 use crate::supervised::{Script, Supervised, Unsupervised};
@@ -15,12 +15,13 @@ use std::fmt;
 /// Why a recorded run cannot be made.
 ///
 /// ```
-/// use cotama_models::missions::embedded;
+/// use cotama_models::missions::{Mission, embedded};
 /// use cotama_sim::options::Options;
 /// use cotama_sim::trace::Trace;
 /// let patrol = embedded::mission("patrol").unwrap();
-/// let poor = patrol.text.replace("energy_mj = 8640000", "energy_mj = 4320000");
-/// let error = Trace::record("poor", &poor, &Options::default()).unwrap_err();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let poor = mission.with_limits([None, Some(4_320_000)]).unwrap();
+/// let error = Trace::record(&poor, &Options::default()).unwrap_err();
 /// let why = "infeasible from the start: no plan within the energy limit: 355.896 J short";
 /// assert_eq!(error.to_string(), why);
 /// ```
@@ -34,7 +35,7 @@ pub enum RecordError {
     Unsupervised(Unsupervised),
     /// There is no plan at the start.
     Infeasible {
-        /// Why.
+        /// The reason.
         reason: NoPlan,
         /// The same in words.
         text: String,
@@ -57,53 +58,52 @@ impl std::error::Error for RecordError {}
 /// A run made again.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Replayed {
-    /// What it came to this time.
+    /// The mission of the trace.
+    pub mission: Mission,
+    /// The result of this run.
     pub run: Run,
     /// The trace it left this time.
     pub trace: Trace,
-    /// Whether that trace is the given one byte for byte, but for the version of the program.
+    /// Whether that trace is the given one, record by record, but for the version of the program.
     pub identical: bool,
+    /// The first record that differs; none when they are identical.
+    pub difference: Option<Difference>,
 }
 
 impl Trace {
-    /// Runs a mission from its text and records everything: under supervisors if its file names
-    /// them. Those deal with the incidents of the faults; other faults, the seed and the search for
-    /// better plans change nothing there.
+    /// Runs a mission and records everything: under supervisors if its file names them. Those deal
+    /// with the incidents of the faults; other faults, the seed and the search for better plans
+    /// change nothing there.
     ///
     /// # Errors
-    /// A [`RecordError`] for a text with errors, options that do not fit it, or no plan at the
-    /// start.
+    /// A [`RecordError`] for options that do not fit the mission, or no plan at the start.
     ///
     /// ```
-    /// use cotama_models::missions::embedded;
+    /// use cotama_models::missions::{Mission, embedded};
     /// use cotama_sim::{options::Options, trace::{Trace, replay}};
     /// let patrol = embedded::mission("patrol").unwrap();
-    /// let (trace, run) = Trace::record("patrol", patrol.text, &Options::default()).unwrap();
+    /// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+    /// let (trace, run) = Trace::record(&mission, &Options::default()).unwrap();
     /// assert_eq!(run.replans, 3);
     /// let read = Trace::parse("patrol.jsonl", &trace.to_json_lines()).unwrap();
     /// assert!(replay(&read).unwrap().identical);
     /// ```
-    pub fn record(
-        mission_source: &str,
-        text: &str,
-        options: &Options,
-    ) -> Result<(Self, Run), RecordError> {
-        let mission = Mission::parse(mission_source, text).map_err(RecordError::Text)?;
+    pub fn record(mission: &Mission, options: &Options) -> Result<(Self, Run), RecordError> {
         let period = options.monitor_period.unwrap_or(mission.run.monitor_period);
         let mut records = Vec::new();
         let run = if mission.supervisor().is_some() {
-            supervised(&mission, options, period, &mut records)
+            supervised(mission, options, period, &mut records)
         } else {
-            let simulation = Simulation::new(&mission, options).map_err(RecordError::Setup)?;
+            let simulation = Simulation::new(mission, options).map_err(RecordError::Setup)?;
             simulation
                 .run_recorded(options.seed, &mut records)
-                .map_err(|reason| infeasible(&mission, reason))
+                .map_err(|reason| infeasible(mission, reason))
         }?;
         let faults = match &options.faults {
             FaultChoice::Script => RunFaults::Script,
             FaultChoice::None => RunFaults::None,
             FaultChoice::Given { source, faults } => {
-                RunFaults::File { source: source.clone(), text: faults_text(faults, &mission) }
+                RunFaults::File { source: source.clone(), text: faults_text(faults, mission) }
             }
         };
         let upward = options.upward.map(|Upward { growth, reserve }| RunUpward {
@@ -113,19 +113,20 @@ impl Trace {
         let header = Header {
             schema: SCHEMA.into(),
             version: env!("CARGO_PKG_VERSION").into(),
-            mission_source: mission_source.into(),
-            mission: text.into(),
+            mission_source: mission.source().into(),
+            mission: mission.text().into(),
             options: RunOptions {
                 seed: options.seed,
                 faults,
                 monitor_period_ms: period.0,
-                allocator: options.planner,
+                allocator: options.planner.unwrap_or_else(|| Planner::of(mission)),
+                rigid: options.rigid,
                 upward,
             },
             limits: mission.limits.into(),
             path_length_mm: mission.path_length.0,
         };
-        Ok((Self { header, records, canonical: true }, run))
+        Ok((Self { header, records, foreign: None }, run))
     }
 
     /// The mission of this trace.
@@ -157,7 +158,8 @@ impl Trace {
             seed: recorded.seed,
             faults,
             monitor_period: Some(Millis(recorded.monitor_period_ms)),
-            planner: recorded.allocator,
+            planner: Some(recorded.allocator),
+            rigid: recorded.rigid,
             upward,
         })
     }
@@ -174,8 +176,8 @@ fn supervised(
     period: Millis,
     records: &mut Vec<Record>,
 ) -> Result<Run, RecordError> {
-    let ready =
-        Supervised::new(mission).map_err(RecordError::Unsupervised)?.with_planner(options.planner);
+    let planner = options.planner.unwrap_or_else(|| Planner::of(mission));
+    let ready = Supervised::new(mission).map_err(RecordError::Unsupervised)?.with_planner(planner);
     if period.0 == 0 {
         return Err(RecordError::Setup(SetupError::ZeroPeriod));
     }
@@ -196,11 +198,12 @@ fn supervised(
 /// A [`RecordError`] when the header is not that of a run that can be made.
 ///
 /// ```
-/// use cotama_models::missions::embedded;
+/// use cotama_models::missions::{Mission, embedded};
 /// use cotama_sim::options::Options;
 /// use cotama_sim::trace::{Trace, replay};
 /// let patrol = embedded::mission("patrol").unwrap();
-/// let (mut trace, _) = Trace::record("patrol", patrol.text, &Options::default()).unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let (mut trace, _) = Trace::record(&mission, &Options::default()).unwrap();
 /// assert!(replay(&trace).unwrap().identical);
 /// trace.records.pop();
 /// assert!(!replay(&trace).unwrap().identical);
@@ -208,9 +211,7 @@ fn supervised(
 pub fn replay(trace: &Trace) -> Result<Replayed, RecordError> {
     let mission = trace.mission().map_err(RecordError::Text)?;
     let options = trace.options(&mission).map_err(RecordError::Text)?;
-    let header = &trace.header;
-    let (again, run) = Trace::record(&header.mission_source, &header.mission, &options)?;
-    let expected = Header { version: header.version.clone(), ..again.header.clone() };
-    let identical = trace.canonical && *header == expected && trace.records == again.records;
-    Ok(Replayed { run, trace: again, identical })
+    let (again, run) = Trace::record(&mission, &options)?;
+    let difference = trace.difference(&again);
+    Ok(Replayed { mission, run, trace: again, identical: difference.is_none(), difference })
 }

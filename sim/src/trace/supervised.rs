@@ -1,9 +1,10 @@
-//! What the supervisors of a mission leave in its trace (Durand et al., TAROS 2010): the chain from
+//! The records of a mission's supervisors in its trace (Durand et al., TAROS 2010): the chain from
 //! a failure to a reaction.
 //!
 //! Failures have numbers from 1 in the order of their happening; `cause` and `failure` are such
 //! numbers.
 
+use cotama_models::cotama::{Class, Mode, Severity};
 use serde::{Deserialize, Serialize};
 
 /// A transition of a supervisor fired.
@@ -11,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub struct Fired {
     /// When, in µs.
     pub t_us: u64,
-    /// Where, in mm.
+    /// Position, in mm.
     pub x_mm: u64,
     /// The net, by its name in the system `delivery`: `gs`, `ls`, `pf`, `to`, `permit`, `gom` or
     /// `cs`.
@@ -38,11 +39,11 @@ impl Fired {
 pub struct Told {
     /// When, in µs.
     pub t_us: u64,
-    /// Where, in mm.
+    /// Position, in mm.
     pub x_mm: u64,
     /// The number of the round after which, from 1.
     pub round: u64,
-    /// What: the net and its event, as `operator.teleoperate`.
+    /// The event: its net and name, as `operator.teleoperate`.
     pub event: String,
 }
 
@@ -51,9 +52,9 @@ pub struct Told {
 pub struct Failure {
     /// When, in µs.
     pub t_us: u64,
-    /// Where, in mm.
+    /// Position, in mm.
     pub x_mm: u64,
-    /// Its number.
+    /// Number of the failure.
     pub failure: u16,
     /// The row of the FMECA, as `SON1`.
     pub mode: String,
@@ -66,7 +67,7 @@ pub struct Failure {
 pub struct Diagnosis {
     /// When, in µs.
     pub t_us: u64,
-    /// Where, in mm.
+    /// Position, in mm.
     pub x_mm: u64,
     /// The failures that raised them.
     pub failures: Vec<u16>,
@@ -78,12 +79,15 @@ pub struct Diagnosis {
     /// The report to the contextual supervisor; none for what is recorded only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub report: Option<String>,
-    /// How severe it is where the robot is: `weak`, `medium`, `hard` or `fatal`.
-    pub severity: String,
-    /// The class by severity: `adapter`, `local` or `global`.
-    pub by_severity: String,
-    /// The class by what is still available: `record`, `adapter`, `local` or `global`.
-    pub by_availability: String,
+    /// How severe it is where the robot is.
+    #[serde(with = "crate::named")]
+    pub severity: Severity,
+    /// The class by severity.
+    #[serde(with = "crate::named")]
+    pub by_severity: Class,
+    /// The class by what is still available.
+    #[serde(with = "crate::named")]
+    pub by_availability: Class,
 }
 
 /// The contextual supervisor decided on a failure for the first time.
@@ -91,12 +95,13 @@ pub struct Diagnosis {
 pub struct Decision {
     /// When, in µs.
     pub t_us: u64,
-    /// Where, in mm.
+    /// Position, in mm.
     pub x_mm: u64,
     /// The failure.
     pub failure: u16,
-    /// Whom it is for: `record` (nobody), `adapter`, `local` or `global`.
-    pub decision: String,
+    /// The receiver.
+    #[serde(with = "crate::named")]
+    pub decision: Class,
     /// The event that it sends; none when it records only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub event: Option<String>,
@@ -113,7 +118,7 @@ pub struct Decision {
 pub struct Exposure {
     /// When it was over, in µs.
     pub t_us: u64,
-    /// Where, in mm.
+    /// Position, in mm.
     pub x_mm: u64,
     /// The failure.
     pub failure: u16,
@@ -126,11 +131,12 @@ pub struct Exposure {
 pub struct Configured {
     /// When, in µs.
     pub t_us: u64,
-    /// Where, in mm.
+    /// Position, in mm.
     pub x_mm: u64,
     /// The configuration, as `PF.OPT`; none when none runs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub configuration: Option<String>,
-    /// The autonomy mode: `rest`, `autonomous`, `hand-over`, `teleprogrammed` or `teleoperated`.
-    pub mode: String,
+    /// The autonomy mode.
+    #[serde(with = "crate::named")]
+    pub mode: Mode,
 }

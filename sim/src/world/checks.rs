@@ -61,7 +61,8 @@ impl World<'_> {
             .spend(&std::array::from_fn(|axis| used[axis].saturating_sub(before[axis])));
     }
 
-    /// What was used, in ms and mJ, rounded half up; at most what the monitor can count.
+    /// Returns the amounts used, in ms and mJ, rounded half up; at most those that the monitor can
+    /// count.
     pub(super) fn used(&self) -> [u64; 2] {
         const PJ_PER_MJ: u64 = 1_000_000_000;
         let energy_mj = match u64::try_from(self.energy_pj) {
@@ -93,7 +94,7 @@ impl World<'_> {
         let duration = if self.travels() {
             // nm over mm/s is µs; half up to ms.
             mul_div_half_up(
-                self.end_nm().saturating_sub(self.x_nm),
+                self.end_nm().saturating_sub(self.x_nm).saturating_add(self.detour_nm()),
                 1,
                 alternative.speed.0.saturating_mul(1000),
             )
@@ -103,17 +104,23 @@ impl World<'_> {
         let duration = duration.unwrap_or(MAX_AMOUNT);
         let energy =
             Millijoules::spent(alternative.power, Millis(duration)).map_or(MAX_AMOUNT, |it| it.0);
-        let mut cost = later;
+        let beside = self.detour_beside();
+        let mut cost = [0, 1].map(|axis| later[axis].saturating_add(beside[axis]));
         cost[DURATION] = cost[DURATION].saturating_add(duration);
         cost[ENERGY] = cost[ENERGY].saturating_add(energy);
         (cost, needs.union(alternative.needs))
     }
 
-    /// The robot stops, and the mission is aborted.
+    /// The robot stops, and the mission is aborted: safely, if it is within its limits.
     fn stop<R: Recorder>(&mut self, cause: PlanCause, reason: Reason, recorder: &mut R) {
+        self.release(recorder);
         if R::WANTED {
             recorder.record(self.abort_record(cause, reason));
         }
-        self.ended = Some((Outcome::Safe, Some(reason)));
+        self.account();
+        self.ended = Some(match self.exceeded() {
+            Some(exceeded) => (Outcome::Failed, Some(exceeded)),
+            None => (Outcome::Safe, Some(reason)),
+        });
     }
 }

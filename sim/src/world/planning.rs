@@ -4,25 +4,12 @@ use super::World;
 use crate::record::Recorder;
 use crate::run::{MAX_REPLANS, NoPlan, PlanCause, PlanMade};
 use crate::setup::NM_PER_MM;
+use crate::solver::{Left, Proposal};
 use crate::trace::Record;
-use cotama_core::hardware::Equipment;
 use cotama_core::monitor::worst;
-use cotama_core::problem::{Candidate, Problem};
 use cotama_core::units::{Millimetres, mul_div_half_up};
-use cotama_models::missions::tables::{Activity, ENERGY, Rest};
-
-/// A plan for what is left, not yet in force.
-struct Proposal {
-    /// The alternative of each activity from the first on.
-    choice: Vec<u16>,
-    cost: [u64; 2],
-    quality: u64,
-    first_cost: [u32; 2],
-    steps: u64,
-    allocator: &'static str,
-    /// The most that any plan of what is left can cost; only for the record.
-    worst: [u64; 2],
-}
+use cotama_models::missions::Remaining;
+use cotama_models::missions::tables::{ENERGY, Rest};
 
 impl World<'_> {
     /// Plans within what is left of the limits, and goes by that plan from now on.
@@ -32,7 +19,7 @@ impl World<'_> {
         before: Option<[i64; 2]>,
         recorder: &mut R,
     ) -> Result<(), NoPlan> {
-        let proposal = self.propose::<R>(self.monitor.left())?;
+        let proposal = self.propose(self.monitor.left())?;
         self.adopt(cause, before, proposal, recorder);
         Ok(())
     }
@@ -47,13 +34,13 @@ impl World<'_> {
         recorder: &mut R,
     ) {
         if self.plans.len() as u64 <= MAX_REPLANS
-            && let Ok(proposal) = self.propose::<R>(self.monitor.room())
+            && let Ok(proposal) = self.propose(self.monitor.room())
         {
             let axis = self.simulation.mission.scenario().order.last().copied().unwrap_or(ENERGY);
             let present = (self.planned_quality(), rest[axis]);
             // A replan rounds the rest of the way up to whole mm, which alone is no improvement.
             let differs = proposal.choice != self.choice[self.first_remaining()..];
-            if differs && (proposal.quality, proposal.cost[axis]) > present {
+            if differs && (proposal.planned.quality, proposal.planned.cost[axis]) > present {
                 self.adopt(PlanCause::Room, Some(before), proposal, recorder);
                 return;
             }
@@ -62,13 +49,14 @@ impl World<'_> {
         let _ = self.monitor.planned(rest);
     }
 
-    /// What is left of the current activity, if it is not done; none if it is whole.
+    /// Returns the rest of the current activity, if it is not done; `None` if it is whole.
     fn rest_of_current(&self) -> Option<Rest> {
         let activity = &self.simulation.activities[self.activity];
-        if self.fresh {
+        let detour_nm = self.detour_nm();
+        if self.fresh && (detour_nm == 0 || !activity.travels()) {
             None
         } else if activity.travels() {
-            let left_nm = self.end_nm().saturating_sub(self.x_nm);
+            let left_nm = self.end_nm().saturating_sub(self.x_nm).saturating_add(detour_nm);
             Some(Rest::Travel(Millimetres(left_nm.div_ceil(NM_PER_MM))))
         } else {
             let left_ms = mul_div_half_up(self.standing_us, 1, 1000).unwrap_or(u64::MAX);
@@ -77,54 +65,21 @@ impl World<'_> {
     }
 
     /// Asks the planner for a plan of what is left within these limits.
-    fn propose<R: Recorder>(&mut self, limits: [u64; 2]) -> Result<Proposal, NoPlan> {
+    fn propose(&mut self, limits: [u64; 2]) -> Result<Proposal, NoPlan> {
         let simulation = self.simulation;
-        let first = self.first_remaining();
-        let everything = self.available == simulation.all_hardware();
-        // Candidates of the first activity if it is under way, and of those that lost hardware
-        // thins out.
-        let mut own: Vec<Option<Vec<Candidate<2>>>> = Vec::with_capacity(self.choice.len() - first);
-        for activity in first..self.choice.len() {
-            let alternatives = simulation.activities[activity].alternatives;
-            let works = |id: u16| self.available.covers(alternatives[usize::from(id)].needs);
-            let rest = if activity == self.activity { self.rest_of_current() } else { None };
-            own.push(match rest {
-                Some(rest) => {
-                    Some(candidates(&simulation.activities[activity], rest, self.available))
-                }
-                None if everything => None,
-                None => {
-                    let whole = simulation.whole[activity].iter();
-                    Some(whole.filter(|candidate| works(candidate.id)).copied().collect())
-                }
-            });
-        }
-        let lists: Vec<&[Candidate<2>]> = own
-            .iter()
-            .zip(&simulation.whole[first..])
-            .map(|(own, whole)| own.as_deref().unwrap_or(whole))
-            .collect();
-        if let Some(emptied) = lists.iter().position(|list| list.is_empty()) {
-            return Err(NoPlan::Emptied { activity: first + emptied });
-        }
-        let order = simulation.mission.scenario().order;
-        let Ok(problem) = Problem::new(&lists, limits, order) else {
-            // Lists were checked above, the order when the mission was read, the counts by their
-            // limits.
-            return Err(NoPlan::Unknown { steps: 0 });
+        let (first, beside) = (self.first_remaining(), self.detour_beside());
+        let rest = if first == self.activity { self.rest_of_current() } else { None };
+        let at_start = first == 0 && rest.is_none() && self.available == simulation.all_hardware();
+        let left = Left {
+            activities: &simulation.activities,
+            first,
+            rest,
+            available: self.available,
+            known: simulation.start.as_ref().filter(|_| at_start),
+            limits: std::array::from_fn(|axis| limits[axis].saturating_sub(beside[axis])),
+            order: simulation.mission.scenario().order,
         };
-        let found = self.solver.solve(simulation.planner, &problem)?;
-        let picked =
-            lists.iter().zip(&self.solver.plan).map(|(list, &index)| list[usize::from(index)]);
-        Ok(Proposal {
-            choice: picked.clone().map(|candidate| candidate.id).collect(),
-            first_cost: picked.clone().next().map_or([0; 2], |candidate| candidate.cost),
-            cost: found.planned.cost,
-            quality: found.planned.quality,
-            steps: found.planned.steps,
-            allocator: found.allocator,
-            worst: if R::WANTED { worst(&lists) } else { [0; 2] },
-        })
+        self.solver.propose(simulation.planner, &left)
     }
 
     /// Goes by a plan from now on.
@@ -145,8 +100,10 @@ impl World<'_> {
             }
             self.rest[activity] = (cost, needs.union(self.chosen(activity).needs));
         }
-        let after = self.margins(&proposal.cost);
-        let _ = self.monitor.planned(&proposal.cost);
+        let beside = self.detour_beside();
+        let cost = [0, 1].map(|axis| proposal.planned.cost[axis].saturating_add(beside[axis]));
+        let after = self.margins(&cost);
+        let _ = self.monitor.planned(&cost);
         if !self.done {
             self.set_leg();
         }
@@ -160,7 +117,7 @@ impl World<'_> {
             after,
             used: self.monitor.used(),
             first_cost: proposal.first_cost,
-            steps: proposal.steps,
+            steps: proposal.planned.steps,
             allocator: proposal.allocator,
         });
         if R::WANTED
@@ -194,21 +151,11 @@ impl World<'_> {
                 continue;
             }
             let way = Rest::Travel(Millimetres(done_nm.div_ceil(NM_PER_MM)));
-            let list = candidates(activity, way, self.available);
-            if list.is_empty() {
-                return None;
-            }
-            for (sum, part) in total.iter_mut().zip(worst(&[&list])) {
+            let ways = Remaining::new(&[*activity], Some(way), self.available).ok()?;
+            for (sum, part) in total.iter_mut().zip(worst(&ways.lists())) {
                 *sum += part;
             }
         }
         Some(total)
     }
-}
-
-/// The candidates of a rest with this hardware; one whose cost does not fit is none.
-fn candidates(activity: &Activity<'_>, rest: Rest, available: Equipment) -> Vec<Candidate<2>> {
-    let working =
-        activity.alternatives.iter().zip(0u16..).filter(|(it, _)| available.covers(it.needs));
-    working.filter_map(|(it, id)| it.candidate(rest, id)).collect()
 }

@@ -1,4 +1,4 @@
-//! What the robot tells the trace.
+//! The robot's records in the trace.
 
 use super::World;
 use crate::run::{PlanCause, PlanMade, Reason, Run};
@@ -80,14 +80,15 @@ impl World<'_> {
     }
 
     pub(super) fn sample_record(&self, margins: [i64; 2]) -> Record {
+        let (speed, power) = self.pace();
         Record::Sample(Sample {
             t_us: self.time_us,
             x_mm: self.x_mm(),
             used: self.monitor.used().into(),
             margins: margins.into(),
-            planned_power_mw: self.leg.alternative.power.0,
-            real_power_mw: mul_div_half_up(self.leg.real_uw, 1, 1000).unwrap_or(u64::MAX),
-            speed_mm_s: self.leg.alternative.speed.0,
+            planned_power_mw: power.0,
+            real_power_mw: mul_div_half_up(self.real_now_uw(), 1, 1000).unwrap_or(u64::MAX),
+            speed_mm_s: speed.0,
         })
     }
 

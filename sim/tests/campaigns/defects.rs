@@ -20,13 +20,13 @@ pub(crate) struct Defect {
 enum Change {
     /// A transition says nothing.
     Silent(&'static str),
-    /// It does not look at these flags.
+    /// The transition does not read these flags.
     Without(&'static str, &'static [&'static str]),
     /// Neither the local supervisor nor the operator looks at whether there is a camera.
     Blind,
-    /// It says this in place of what it says.
+    /// The transition emits this in place of its outputs.
     Says(&'static str, &'static str),
-    /// It goes from a place to another one.
+    /// The transition goes from a place to another one.
     Moved(&'static str, &'static str, &'static str),
     /// There is one more like it, from a place to another one.
     Also(&'static str, &'static str, &'static str),
@@ -119,7 +119,8 @@ impl Change {
 }
 
 impl Defect {
-    /// It is ready to be run, and watched for what it breaks.
+    /// Returns the subject, ready to be run, and watched for the requirements that the defect
+    /// breaks.
     pub(crate) fn subject<'m>(&self, mission: &'m Mission) -> Subject<'m> {
         let subject = Subject::of(mission, self.supervised(mission));
         subject.watching(std::slice::from_ref(&self.breaks)).unwrap()
@@ -140,7 +141,8 @@ fn required(id: &str) -> Requirement {
     Requirement::Always(found.asked.unwrap().text.to_owned())
 }
 
-/// What is lost is used at the ends of two rounds at most: requirement AS2, of one module.
+/// Returns the requirement that a lost module is used at the ends of two rounds at most: AS2, of
+/// one module.
 fn unused(lost: &str, by: &str) -> Requirement {
     Requirement::Always(format!("AG (!faults.{lost} & ({by}) -> AF<=200ms !({by}))"))
 }

@@ -4,10 +4,10 @@ use cotama_core::net::TransitionId;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_models::nets::families::philosophers;
 use cotama_models::nets::{door, watchdog};
+use cotama_property::pt::Pt;
+use cotama_property::{Condition, Formula, parse};
 use cotama_sim::campaign::statistics::clopper_pearson;
 use cotama_sim::estimate::{Asked, Draw, NotOfARun, Tally, Witness, draw, replay};
-use cotama_verification::property::{Condition, Formula, parse};
-use cotama_verification::pt::Pt;
 use std::collections::BTreeMap;
 
 const RUNS: u64 = 20_000;
@@ -68,7 +68,7 @@ fn estimates_are_those_of_the_exact_distribution() {
         // One in a million tables like this one would fail.
         let found = clopper_pearson(tally.holding, RUNS, 0.999_999_9);
         assert!(found.holds(truth), "{asked}: {truth} is not in {found:?}");
-        // What is always so is so of the other runs.
+        // A property that always holds also holds of the other runs.
         if asked.starts_with("EF") {
             let never = drawn(&format!("AG !({goal})"), net, all);
             assert_eq!(never.holding, RUNS - tally.holding, "{asked}");
@@ -96,7 +96,7 @@ fn coin(ends: bool) -> Pt {
 }
 
 #[test]
-fn a_deadlock_decides_what_more_steps_would_not_change() {
+fn a_deadlock_decides_questions_that_more_steps_would_not() {
     let all = Draw { runs: 1_000, steps: 5, seed: 3, jobs: 1 };
     for (asked, holds_with_heads) in [("AF heads", true), ("AG !heads", false)] {
         let [ended, spins] = [true, false].map(|ends| drawn(asked, &coin(ends), all));
@@ -159,7 +159,7 @@ fn a_place_that_overflows_is_an_error_and_names_the_first_run() {
 }
 
 #[test]
-fn what_one_run_cannot_decide_is_refused() {
+fn questions_that_one_run_cannot_decide_are_refused() {
     let net = Pt::from(&door::NET);
     for (text, why) in [
         ("Open", NotOfARun::Start),

@@ -4,7 +4,6 @@ use super::defects::{BLIND, Defect, defects};
 use super::mission;
 use cotama_models::cotama::{REQUIREMENTS, delivery};
 use cotama_models::missions::Mission;
-use cotama_sim::campaign::findings::compact;
 use cotama_sim::campaign::requirement::Requirement;
 use cotama_sim::campaign::shrink::{MAX_RUNS, Shrunk, shrink};
 use cotama_sim::campaign::space::{Rates, Space};
@@ -44,7 +43,7 @@ fn found(
         for run in first..first + BLOCK {
             let plan = draws.next();
             let observed = subject.run(&plan);
-            // What the sound system fails too is no sign of the defect.
+            // A requirement that the sound system fails too is no sign of the defect.
             let fails = |plan: &cotama_sim::campaign::plan::Plan| {
                 !defect.breaks.holds(plan, &subject.run(plan))
                     && defect.breaks.holds(plan, &sound.run(plan))
@@ -64,7 +63,7 @@ fn found(
 fn the_blind_drive_is_found_and_is_three_faults() {
     let mission = mission("delivery");
     let (_, shrunk) = found(&BLIND, &mission, StrategyName::Guided, 0, 40_000).unwrap();
-    let text = compact(&shrunk.plan, &mission);
+    let text = shrunk.plan.compact(&mission);
     assert!(shrunk.plan.faults.len() <= 3 && shrunk.runs <= MAX_RUNS, "{text}");
     let names = shrunk.plan.signature();
     assert!(names.contains("SON2") && names.contains("CAM1"), "{text}");
@@ -75,7 +74,7 @@ fn a_planted_defect_is_found_and_made_small() {
     let mission = mission("delivery");
     let late = defects().into_iter().find(|it| it.name == "ODO1 is seen 20 s late").unwrap();
     let (run, shrunk) = found(&late, &mission, StrategyName::Uniform, 0, 2_000).unwrap();
-    let text = compact(&shrunk.plan, &mission);
+    let text = shrunk.plan.compact(&mission);
     assert!(run <= 200 && shrunk.minimal && shrunk.runs <= MAX_RUNS, "{run}");
     let expected = "format = \"panorama-faults/1\"\nevent = [\n  { t_ms = 0, kind = \"failure\", \
                     mode = \"ODO1\" },\n]\n";
@@ -112,7 +111,7 @@ fn the_page_shows_the_table_of_defects() {
 }
 
 #[test]
-fn what_breaks_no_requirement_is_not_made_small() {
+fn a_plan_that_breaks_no_requirement_is_not_shrunk() {
     let mission = mission("delivery");
     let subject = Subject::new(&mission, Default::default()).unwrap();
     let plan = cotama_sim::campaign::plan::Plan::default();
@@ -120,7 +119,7 @@ fn what_breaks_no_requirement_is_not_made_small() {
     assert_eq!((shrunk.plan, shrunk.minimal), (plan, true));
 }
 
-/// What is broken, in a word: a requirement of the delivery by its id.
+/// Returns the broken requirement in a word: that of the delivery by its id.
 fn broken(requirement: &Requirement) -> String {
     let Requirement::Always(text) = requirement else { return requirement.to_string() };
     let listed = REQUIREMENTS.iter().find(|it| it.asked.is_some_and(|it| it.text == text));
@@ -142,7 +141,7 @@ fn median_runs_to_find_each_defect() {
     );
     STRATEGIES.iter().for_each(|it| write!(text, "{:>10}", it.name()).unwrap());
     text += "  faults  lines  runs  broken\n";
-    // Of each strategy and defect, the runs of each seed; a seed without a find counts its budget.
+    // The runs of each seed, by strategy and defect; a seed without a find counts its budget.
     let mut all = vec![Vec::new(); STRATEGIES.len()];
     for defect in defects() {
         write!(text, "{:36}", defect.name).unwrap();
@@ -152,7 +151,7 @@ fn median_runs_to_find_each_defect() {
                 .map(|seed| match found(&defect, &mission, name, seed, BUDGET) {
                     None => u64::MAX,
                     Some((run, shrunk)) => {
-                        let lines = compact(&shrunk.plan, &mission).lines().count() as u64;
+                        let lines = shrunk.plan.compact(&mission).lines().count() as u64;
                         let these = [shrunk.plan.faults.len() as u64, lines, shrunk.runs];
                         most = std::array::from_fn(|at| most[at].max(these[at]));
                         run
@@ -176,7 +175,7 @@ fn median_runs_to_find_each_defect() {
     let is_race = |name: &str| ["F1", "F2", "F6"].iter().any(|it| name.starts_with(it));
     let races: Vec<bool> = defects().iter().map(|it| is_race(it.name)).collect();
     assert_eq!(races.iter().filter(|it| **it).count(), 3);
-    let log = |runs: &[f64]| runs.iter().map(|it| it.ln()).sum::<f64>() / SEEDS as f64;
+    let log = |runs: &[f64]| runs.iter().map(|it| libm::log(*it)).sum::<f64>() / SEEDS as f64;
     for (column, name) in STRATEGIES.into_iter().enumerate().skip(1) {
         let ratio = |of_all: bool| {
             let of = |column: usize| all[column].chunks(SEEDS as usize);
@@ -184,7 +183,7 @@ fn median_runs_to_find_each_defect() {
             let meant = pairs.filter(|(_, is_race)| of_all || !**is_race);
             let logs: Vec<f64> = meant.map(|((uniform, it), _)| log(uniform) - log(it)).collect();
             let it = cotama_sim::campaign::statistics::mean_interval(&logs, 0.95);
-            let [mean, low, high] = [it.estimate, it.low, it.high].map(f64::exp);
+            let [mean, low, high] = [it.estimate, it.low, it.high].map(libm::exp);
             format!("{mean:.2} ({low:.2} to {high:.2})")
         };
         writeln!(text, "{:10} {}   {}", name.name(), ratio(true), ratio(false)).unwrap();

@@ -29,7 +29,7 @@ fn source_from(first: &str) -> String {
 }
 
 #[test]
-fn the_page_shows_a_requirement_that_fails_and_what_its_test_says() {
+fn the_page_shows_a_requirement_that_fails_and_the_message_of_its_test() {
     let failed =
         catch_unwind(AssertUnwindSafe(user::nobody_waits_for_the_operator_for_more_than_a_minute));
     let said = failed.unwrap_err().downcast::<String>().unwrap();

@@ -1,4 +1,4 @@
-//! Who plans, over the same plans of faults: the table of `docs/campaigns.md`.
+//! Planners over the same plans of faults: the table of `docs/campaigns.md`.
 
 use super::mission;
 use cotama_sim::campaign::compare::{Compared, compare};
@@ -40,7 +40,7 @@ fn mean(it: Interval, unit: f64, digits: usize) -> String {
     format!("{value:.digits$} ± {half:.digits$}")
 }
 
-/// Those after the first against it: paired differences.
+/// Writes the differences of the others to the first: paired.
 fn differences(text: &mut String, all: &[Compared]) {
     let first = &all[0].name;
     for it in &all[1..] {
@@ -62,8 +62,8 @@ fn rows(text: &mut String, name: &str, all: &[Compared]) {
     for it in all {
         let [completed, safe, failed] = it.outcomes;
         assert_eq!(completed + safe + failed, RUNS);
-        let [time, energy, asked, _] = it.means;
-        let (name, share, asked) = (&it.name, share(it.success), mean(asked, 1.0, 3));
+        let [time, energy, asked, _] = it.intervals.unwrap();
+        let (name, share, asked) = (&it.name, share(it.success.unwrap()), mean(asked, 1.0, 3));
         let (time, energy) = (mean(time, 1_000.0, 1), mean(energy, 1_000.0, 1));
         let line =
             format!("| {name} | {share} | {safe} | {failed} | {time} | {energy} | {asked} |");
@@ -81,7 +81,7 @@ fn policies_over_the_same_20_000_plans() {
     let (patrol, delivery) = (mission("patrol"), mission("delivery"));
     let settings = |supervised| Settings { runs: RUNS, ..Settings::new(supervised) };
     let of = |mission, policies: &[_], supervised| {
-        compare(mission, policies, &settings(supervised), 2).unwrap()
+        compare(mission, policies, &settings(supervised), 0.95, 2).unwrap()
     };
     let rule = Policy { planner: Some(Planner::Panorama), ..Policy::default() };
     let named = |(name, it): (&str, Policy)| (name.to_owned(), it);
@@ -92,8 +92,8 @@ fn policies_over_the_same_20_000_plans() {
     let mut text = String::new();
     rows(&mut text, "patrol", &all);
     rows(&mut text, "delivery", &delivery);
-    text += "| over the same plans | only it | only other | points | p | time, s | energy, J | asked |\n\
-             | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    text += "| over the same plans | only it | only other | points | p | time, s | energy, J \
+             | asked |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n";
     differences(&mut text, &all);
     differences(&mut text, &of_rule);
     differences(&mut text, &delivery);

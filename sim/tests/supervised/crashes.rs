@@ -6,9 +6,9 @@ use cotama_models::cotama::Configuration::{
     self, FollowingDegraded, FollowingDvz, FollowingOdometric, FollowingOptimal, TeleoperationFull,
     Teleprogramming,
 };
-use cotama_models::cotama::{FailureMode, Module};
+use cotama_models::cotama::{Class, FailureMode, Module};
 use cotama_sim::run::Outcome;
-use cotama_sim::supervised::{Decided, Injection, Run, Script, Supervised, When};
+use cotama_sim::supervised::{Injection, Run, Script, Supervised, When};
 
 fn run(crashes: &[(u64, Module)]) -> Run {
     let crash = |&(m, part): &(u64, Module)| {
@@ -34,7 +34,7 @@ fn without_smz_a_sound_robot_avoids_by_dvz() {
         first_drive(&run),
         [FollowingOptimal, FollowingDvz, TeleoperationFull, Teleprogramming, FollowingDvz]
     );
-    assert_eq!(run.conduct[0].decided.unwrap().1, Decided::Adapter);
+    assert_eq!(run.conduct[0].decided.unwrap().1, Class::Adapter);
     let asked = run.fired.iter().filter(|it| it.transition == "ambiguous3").count();
     assert_eq!((run.outcome, run.operator_requests, asked), (Outcome::Completed, 1, 1));
 }

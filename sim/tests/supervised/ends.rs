@@ -47,10 +47,10 @@ fn nothing_moves_for_a_minute_after_a_mission_was_ended() {
     }
 }
 
-/// Somebody touches it for 5 s, and the laptop goes down after 4: when he is gone a second is left in
-/// which the last command is obeyed.
+/// Somebody touches it for 5 s, and the laptop goes down after 4: when he is gone a second is left
+/// in which the last command is obeyed.
 #[test]
-fn who_is_held_up_when_the_laptop_goes_down_is_safe_when_the_micro_controller_stops_it() {
+fn a_robot_held_up_when_the_laptop_goes_down_is_safe_once_the_micro_controller_stops_it() {
     let mission = delivery();
     let supervised = Supervised::new(&mission).unwrap();
     let held = script(Col1, 5_000);
@@ -63,7 +63,7 @@ fn who_is_held_up_when_the_laptop_goes_down_is_safe_when_the_micro_controller_st
         (run.time.0 - since.0, run.x.0)
     };
     assert_eq!([1_000, 2_000, 3_000].map(ends), [(3_000, 5_010), (4_000, 5_010), (5_000, 5_010)]);
-    // It speeds up for a second, to 150 mm/s, and stands half a second later.
+    // The robot speeds up for a second, to 150 mm/s, and stands half a second later.
     assert_eq!(ends(4_000), (6_500, 5_160));
 }
 

@@ -6,6 +6,7 @@
 mod answers;
 mod crashes;
 mod ends;
+mod limits;
 mod matrix;
 mod moments;
 mod observers;

@@ -5,8 +5,9 @@ use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{Diagnosis, FailureMode, Module, local};
 use cotama_models::missions::Mission;
 use cotama_models::missions::faults::Answer;
+use cotama_sim::body::{Motion, effect};
 use cotama_sim::run::Outcome;
-use cotama_sim::supervised::{Answers, Injection, Motion, Run, Script, Supervised, When, effect};
+use cotama_sim::supervised::{Answers, Injection, Run, Script, Supervised, When};
 use std::fmt::Write;
 
 const PLACES: [local::State; 5] = [

@@ -33,7 +33,7 @@ fn a_failure_follows_the_first_firing_of_a_transition() {
             "fired = \"ls.l3\", after_ms = {after}, kind = \"failure\", mode = \"SON2\""
         ));
         let due = (first(&run, "ls.l3").0 + after).next_multiple_of(100);
-        // What fires in a round is seen by what fails in the next one.
+        // A firing in one round is seen by a failure in the next one.
         let injected = run.conduct[0].injected.0;
         assert!((due..=due + 100).contains(&injected), "{after}: {due} and {injected}");
     }
@@ -51,7 +51,7 @@ fn a_failure_ends_when_a_transition_fires() {
 }
 
 #[test]
-fn a_failure_that_waits_for_what_never_fires_never_comes() {
+fn a_failure_that_waits_for_a_dead_transition_never_comes() {
     let run = run("fired = \"ls.l9\", kind = \"failure\", mode = \"BAT2\"");
     assert!(run.conduct.is_empty());
     let act = Act::named("ls.l9").unwrap();

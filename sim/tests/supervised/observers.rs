@@ -15,7 +15,8 @@ fn at(mm: u64, mode: FailureMode) -> Injection {
     Injection::new(When::Place(Millimetres(mm)), mode)
 }
 
-/// What decided and acted on the first drive, in words of the nets; numbers of variants left out.
+/// Returns the decisions and actions on the first drive, in words of the nets; numbers of variants
+/// left out.
 fn acted(run: &Run) -> String {
     let end = run.fired.iter().position(|it| it.transition == "g2").unwrap();
     let acts = run.fired[..end].iter().filter(|it| ["ls", "pf", "to", "cs"].contains(&it.net));
@@ -23,8 +24,8 @@ fn acted(run: &Run) -> String {
     acts.map(|it| name(&it.transition)).collect::<Vec<_>>().join(" ")
 }
 
-/// What became of each failure: whether it was seen, and how long the robot went on without a
-/// module that it takes.
+/// Returns for each failure whether it was seen, and how long the robot went on without a module
+/// that it takes.
 fn seen(run: &Run) -> Vec<(FailureMode, bool, u64)> {
     let of = |it: &cotama_sim::supervised::Conduct| {
         let diagnosed = it.detected.is_some_and(|it| it.1 != Diagnosis::None);
@@ -52,7 +53,7 @@ fn lost_sonars_do_not_hide_a_camera_that_fails() {
 /// the robot bumps into something and asks again: driving by hand is not offered, so that nobody
 /// ever drives by that camera.
 #[test]
-fn nobody_drives_by_a_camera_that_nobody_watches() {
+fn an_unwatched_camera_is_never_used_for_driving() {
     let (sw1, cam1, loc3) = (FailureMode::Sw1, FailureMode::Cam1, FailureMode::Loc3);
     let crash = Injection { part: Module::OSen, ..at(26_000, sw1) };
     let run = run(vec![crash, at(30_000, cam1), at(34_000, loc3)]);

@@ -31,7 +31,7 @@ impl Moment {
     }
 }
 
-/// What is wrong with a run, as far as it is the second failure's.
+/// An error of a run, as far as it is the second failure's.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum Wrong {
     /// The robot moved without a module that it requires for longer than the bound.
@@ -121,7 +121,7 @@ fn all(mission: &Mission) -> (usize, Found) {
     let run = |first, second, moment| supervised.run(&script(first, second, moment)).unwrap();
     let silent = undetectable(Modules::ALL);
     let modes = || FailureMode::ALL.iter().copied().filter(|it| !silent.has(*it));
-    // What is detected alone, at each moment: beside a failure that costs nothing.
+    // Detection alone, at each moment: beside a failure that costs nothing.
     let harmless = FailureMode::Rt2;
     let detected = |run: &Run, mode| {
         let it = run.conduct.iter().rfind(|it| it.mode == mode);

@@ -1,4 +1,5 @@
-//! What returns: never used again unless the mission asks for it, and then only when it has lasted.
+//! Modules that return: never used again unless the mission asks for it, and then only when the
+//! return has lasted.
 
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::Configuration::{
@@ -11,7 +12,7 @@ use cotama_models::missions::faults::Faults;
 use cotama_sim::faults_text::faults_text;
 use cotama_sim::options::Options;
 use cotama_sim::run::Outcome;
-use cotama_sim::supervised::{Injection, PLANNER, Run, Script, Supervised, When};
+use cotama_sim::supervised::{Injection, Run, Script, Supervised, When};
 use cotama_sim::trace::{Record, Trace, replay};
 
 /// The delivery with these events in place of its own, and with supervisors that use again what
@@ -28,7 +29,7 @@ fn run(recovery: bool, injections: Vec<Injection>) -> Run {
     Supervised::new(&mission).unwrap().run(&Script { injections, answers: Vec::new() }).unwrap()
 }
 
-/// It fails at a place and is sound again from another one.
+/// Returns a failure at a place that ends at another one.
 fn fails(mode: FailureMode, from: u64, to: u64) -> Injection {
     let at = |mm| When::Place(Millimetres(mm));
     Injection { until: Some(at(to)), ..Injection::new(at(from), mode) }
@@ -47,7 +48,7 @@ fn ups(run: &Run) -> usize {
 }
 
 #[test]
-fn without_recovery_what_returns_is_not_used() {
+fn a_returned_module_is_not_used_without_recovery() {
     let run = run(false, vec![fails(FailureMode::Son2, 10_000, 20_000)]);
     assert_eq!(first_drive(&run), [(2, FollowingOptimal), (37, FollowingDegraded)]);
     assert_eq!((run.outcome, run.plans.len(), ups(&run)), (Outcome::Completed, 2, 0));
@@ -99,7 +100,7 @@ fn a_loose_contact_moves_nothing() {
 }
 
 #[test]
-fn what_has_returned_twice_is_lost_for_good_the_third_time() {
+fn a_module_returned_twice_is_lost_for_good_the_third_time() {
     let thrice = [5_000, 15_000, 25_000].map(|x| fails(FailureMode::Son2, x, x + 3_000));
     let run = run(true, thrice.to_vec());
     let drive: Vec<_> = first_drive(&run).into_iter().map(|it| it.1).collect();
@@ -116,7 +117,7 @@ fn what_has_returned_twice_is_lost_for_good_the_third_time() {
 /// The operator drives when the sonars return: his avoidance goes up, and the next path is followed
 /// with everything.
 #[test]
-fn who_does_not_run_does_not_go_up_and_starts_with_what_is_there() {
+fn an_idle_adapter_does_not_go_up_and_starts_with_all_modules() {
     let mut son2 = fails(FailureMode::Son2, 10_000, 0);
     son2.until = Some(When::During(cotama_models::cotama::local::State::HandOver, Millis(0)));
     let bump = Injection::new(When::Place(Millimetres(12_000)), FailureMode::Loc3);
@@ -142,7 +143,7 @@ mode = "SON2"
 "#;
 
 #[test]
-fn a_mission_file_says_when_a_failure_ends_and_its_trace_what_followed() {
+fn a_mission_file_gives_the_end_of_a_failure_and_its_trace_the_consequences() {
     let text = text(true, EVENTS);
     let mission = Mission::parse("delivery", &text).unwrap();
     let script = Script::from(&mission.run.faults);
@@ -150,8 +151,8 @@ fn a_mission_file_says_when_a_failure_ends_and_its_trace_what_followed() {
     let faults = faults_text(&mission.run.faults, &mission);
     assert_eq!(Faults::parse("faults", &faults, &mission).unwrap(), mission.run.faults);
 
-    let options = Options { planner: PLANNER, ..Options::default() };
-    let (trace, _) = Trace::record("delivery", &text, &options).unwrap();
+    let options = Options::default();
+    let (trace, _) = Trace::record(&mission, &options).unwrap();
     assert!(replay(&Trace::parse("trace", &trace.to_json_lines()).unwrap()).unwrap().identical);
     let plans = trace
         .records

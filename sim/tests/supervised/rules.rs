@@ -14,7 +14,7 @@ use cotama_models::missions::faults::Answer::{self, GiveUp, Path, Teleoperate, T
 use cotama_sim::supervised::{Answers, Injection, Script, Supervised, When};
 use std::fmt::Write;
 
-/// What comes to a rule.
+/// The situation shown to a rule.
 enum Shown {
     /// A run in which these fail and the operator answers so; in it a rule of this name fires.
     Run(Vec<Injection>, Vec<Answers>),
@@ -45,7 +45,7 @@ fn until(m: u64, it: Injection) -> Injection {
     Injection { until: Some(When::Place(Millimetres(m * 1_000))), ..it }
 }
 
-/// It fails, and is sound once the operator was asked.
+/// Returns the failure with an end once the operator was asked.
 fn until_asked(it: Injection) -> Injection {
     Injection { until: Some(When::During(HandOver, Millis(0))), ..it }
 }
@@ -127,7 +127,7 @@ const DECIDES: &str = "decides = \"cotama\"";
 const RETURNS: (&str, &str) = (DECIDES, "decides = \"cotama\"\nrecovery = true");
 const TIGHT: (&str, &str) = ("duration_ms = 900000", "duration_ms = 400000");
 
-/// What fails, in words.
+/// Returns the failures in words.
 fn words(script: &Script) -> String {
     let one = |it: &Injection| {
         let part = if it.mode.rule().one_module {
@@ -156,7 +156,7 @@ fn words(script: &Script) -> String {
     failures + &script.answers.first().map_or_else(String::new, answer)
 }
 
-/// Where a transition can fire, in words.
+/// Returns the guard of a transition in words.
 fn guard(net: &Net<'_>, it: &Transition<'_>) -> String {
     let one = |arc: &Arc| {
         let place = &net.places[arc.place.0 as usize];
@@ -169,7 +169,7 @@ fn guard(net: &Net<'_>, it: &Transition<'_>) -> String {
             _ => place.name.to_owned(),
         }
     };
-    // What distinguishes the variants of a rule that sets a flag is no condition.
+    // A flag that distinguishes the variants of a rule is no condition.
     let varies = |arc: &&Arc| {
         let place = &net.places[arc.place.0 as usize];
         let place = if let Role::Complement(of) = place.role { of } else { arc.place };

@@ -7,16 +7,16 @@ use cotama_models::cotama::Configuration::{
     self, FollowingDegraded, FollowingOptimal, FollowingReduced, Planning, TeleoperationDegraded,
     TeleoperationFull, Teleprogramming,
 };
-use cotama_models::cotama::{Diagnosis, FailureMode, FailureModes};
+use cotama_models::cotama::{Class, Diagnosis, FailureMode, FailureModes};
 use cotama_sim::run::Outcome;
-use cotama_sim::supervised::{Decided, Run, Script, Supervised};
+use cotama_sim::supervised::{Run, Script, Supervised};
 
 fn run() -> Run {
     let mission = delivery();
     Supervised::new(&mission).unwrap().run(&Script::from(&mission.run.faults)).unwrap()
 }
 
-/// What fired in the nets of the reconstruction; numbers of variants left out.
+/// Returns the firings in the nets of the reconstruction; numbers of variants left out.
 fn sequence(run: &Run) -> Vec<&str> {
     let nets = ["gs", "ls", "pf", "to"];
     let fired = run.fired.iter().filter(|it| nets.contains(&it.net));
@@ -64,10 +64,10 @@ fn each_failure_is_diagnosed_and_answered_as_published() {
     use FailureMode::{Bmp2, Loc1, Loc2, Loc3, Odo2, Rt1, Son1};
     let not_unique = |modes: &[FailureMode]| Diagnosis::Ambiguous(FailureModes::of(modes));
     let expected = [
-        (Rt1, Diagnosis::Unique(Rt1), Decided::Adapter),
-        (Loc2, not_unique(&[Odo2, Loc1, Loc2]), Decided::Local),
-        (Son1, Diagnosis::Unique(Son1), Decided::Adapter),
-        (Loc3, not_unique(&[Bmp2, Loc3]), Decided::Local),
+        (Rt1, Diagnosis::Unique(Rt1), Class::Adapter),
+        (Loc2, not_unique(&[Odo2, Loc1, Loc2]), Class::Local),
+        (Son1, Diagnosis::Unique(Son1), Class::Adapter),
+        (Loc3, not_unique(&[Bmp2, Loc3]), Class::Local),
     ];
     assert_eq!(conduct, expected);
     // From the flags to the decision one round, to the reaction another one.
@@ -89,7 +89,7 @@ fn the_object_is_delivered_after_two_requests() {
 }
 
 #[test]
-fn without_failures_nobody_is_asked() {
+fn the_operator_is_not_asked_without_failures() {
     let mission = delivery();
     let run = Supervised::new(&mission).unwrap().run(&Script::default()).unwrap();
     assert_eq!(

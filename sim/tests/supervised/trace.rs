@@ -3,11 +3,11 @@
 use super::{delivery, golden};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{Diagnosis, FailureMode};
-use cotama_models::missions::embedded;
 use cotama_models::missions::faults::{Answer, Faults, Incident, IncidentKind, Moment};
+use cotama_models::missions::{Mission, embedded};
 use cotama_sim::options::{FaultChoice, Options};
 use cotama_sim::run::Outcome;
-use cotama_sim::supervised::{PLANNER, Script, Supervised, story};
+use cotama_sim::supervised::{Script, Supervised, story};
 use cotama_sim::trace::{Record, Trace, replay};
 use proptest::prelude::*;
 use std::fmt::Write;
@@ -16,8 +16,10 @@ use std::sync::LazyLock;
 static GOLDEN: LazyLock<String> = LazyLock::new(|| record(FaultChoice::Script).to_json_lines());
 
 fn record(faults: FaultChoice) -> Trace {
-    let options = Options { faults, planner: PLANNER, ..Options::default() };
-    Trace::record("delivery", embedded::mission("delivery").unwrap().text, &options).unwrap().0
+    let options = Options { faults, ..Options::default() };
+    let delivery = embedded::mission("delivery").unwrap();
+    let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+    Trace::record(&mission, &options).unwrap().0
 }
 
 #[test]
@@ -155,7 +157,7 @@ proptest! {
         prop_assert_eq!(chains.len(), run.conduct.len());
         for chain in chains {
             let conduct = &run.conduct[usize::from(chain.failure.failure) - 1];
-            // What no available observer sees is diagnosed as nothing.
+            // A failure that no available observer sees is diagnosed as nothing.
             let found = conduct.detected.filter(|it| it.1 != Diagnosis::None);
             prop_assert_eq!(chain.diagnosis.map(|it| it.t_us / 1000), found.map(|it| it.0.0));
             prop_assert_eq!(

@@ -4,11 +4,10 @@ use super::{delivery, golden};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{Diagnosis, FailureMode, Module, local};
 use cotama_models::missions::Mission;
-use cotama_sim::run::Outcome;
+use cotama_sim::body::{Effect, Motion, effect};
+use cotama_sim::run::{LONGEST, Outcome};
 use cotama_sim::streams::{Stream, Streams};
-use cotama_sim::supervised::{
-    Conduct, Effect, Fired, Injection, Motion, PERIOD, Run, Script, Supervised, When, effect,
-};
+use cotama_sim::supervised::{Conduct, Fired, Injection, PERIOD, Run, Script, Supervised, When};
 use cotama_sim::trace::Record;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -55,8 +54,8 @@ fn way_after_halt(supervised: &Supervised<'_>, run: &Run, script: &Script) -> Op
     Some(Millimetres(run.x.0 - then.unwrap()))
 }
 
-/// What must hold of every run, whatever fails, and of how far the robot still goes in a minute
-/// after its end; whether it also stopped in time.
+/// Checks the requirements of every run, whatever fails, and how far the robot still goes in a
+/// minute after its end; returns whether it also stopped in time.
 fn judge(supervised: &Supervised<'_>, run: &Run, way: Millimetres, script: &Script) -> bool {
     assert!(!run.moved_when_safe, "M1: {script:?}");
     let may_run_away = script.injections.iter().any(|it| runs_away(it.mode));
@@ -73,9 +72,9 @@ fn judge(supervised: &Supervised<'_>, run: &Run, way: Millimetres, script: &Scri
         braked <= BRAKING || (is_down && ran_away && halted.is_none()),
         "M2: {braked} after {script:?}"
     );
-    // What is done too late or with too much energy is done all the same.
+    // An objective done too late or with too much energy is done all the same, or the robot stands.
     assert!(
-        run.outcome != Outcome::Failed || run.x == Millimetres(80_000),
+        run.outcome != Outcome::Failed || run.x == Millimetres(80_000) || run.time < LONGEST,
         "stuck after {script:?}"
     );
     is_in_time(run, script) || {
@@ -148,8 +147,8 @@ fn campaign(mission: &Mission, runs: u64) -> Campaign {
 fn three_failures_never_leave_the_robot_moving() {
     let expected = BTreeMap::from([
         ((Outcome::Completed, true), 480),
-        ((Outcome::Safe, true), 518),
-        ((Outcome::Failed, true), 2), // too late
+        ((Outcome::Safe, true), 517),
+        ((Outcome::Failed, true), 3), // too late
     ]);
     assert_eq!(campaign(&delivery(), 1_000), (expected, BTreeMap::new()));
 }

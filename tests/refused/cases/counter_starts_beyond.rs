@@ -1,4 +1,4 @@
-//! It starts with more than its largest value.
+//! The counter starts with more than its largest value.
 cotama_core::net! {
     pub mod drive {
         places { Idle: 1, Driving }

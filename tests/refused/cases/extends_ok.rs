@@ -4,7 +4,7 @@
 
 /// Bases.
 pub mod nets {
-    /// Where it goes.
+    /// A pose to go to.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Pose(pub i32);
 

@@ -1,4 +1,4 @@
-//! What is false cannot be lowered.
+//! A flag that is false cannot be lowered.
 cotama_core::net! {
     pub mod drive {
         places { Idle: 1, Driving }

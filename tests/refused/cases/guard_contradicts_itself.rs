@@ -1,4 +1,4 @@
-//! It cannot be both.
+//! The flag cannot be both.
 cotama_core::net! {
     pub mod drive {
         places { Idle: 1, Driving }

@@ -1,4 +1,4 @@
-//! It depends on another net whether `Look` is answered.
+//! Another net decides whether `Look` is answered.
 cotama_core::net! {
     pub mod look {
         places { Idle: 1, Looking }

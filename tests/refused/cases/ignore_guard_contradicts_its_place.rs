@@ -1,4 +1,4 @@
-//! Where the flag is marked it is not false.
+//! The flag is not false in its own place.
 cotama_core::net! {
     pub mod drive {
         places { Idle: 1, Driving }

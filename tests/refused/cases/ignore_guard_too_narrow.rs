@@ -1,4 +1,4 @@
-//! Where the guards of `ignore` do not hold, the pairs are still missing.
+//! The pairs are still missing without the guards of `ignore`.
 cotama_core::net! {
     pub mod upload {
         places { Waiting: 1, Sent }

@@ -1,4 +1,4 @@
-//! It ends before it begins.
+//! The interval ends before it begins.
 cotama_core::net! {
     pub mod drive {
         places { Idle: 1, Driving }

@@ -1,4 +1,4 @@
-//! It waits, and then it can.
+//! The transition waits, and then it can fire.
 cotama_core::net! {
     /// A robot that may be sent for a while.
     pub mod errand {

@@ -1,4 +1,4 @@
-//! It runs by itself, with no law.
+//! The net runs by itself, with no law.
 cotama_core::net! {
     /// A fuse.
     pub mod fuse {

@@ -1,4 +1,4 @@
-//! What is marked in passing is marked.
+//! A place marked in passing is marked.
 cotama_core::net! {
     /// A robot that asks, and does not wait for the answer.
     pub mod ask {

@@ -1,4 +1,4 @@
-//! It blinks once in a millisecond.
+//! The lamp blinks once in a millisecond.
 cotama_core::net! {
     /// A lamp that blinks.
     pub mod lamp {

@@ -1,4 +1,4 @@
-//! It reads, takes nothing and gives nothing.
+//! The transition reads, takes nothing and gives nothing.
 cotama_core::net! {
     pub mod watch {
         places { Idle: 1 }

@@ -3,7 +3,7 @@
 #![forbid(unsafe_code)]
 #![warn(clippy::pedantic)]
 
-/// Where to go.
+/// A pose to go to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose(pub i32, pub i32);
 

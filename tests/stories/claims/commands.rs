@@ -1,11 +1,11 @@
-//! What claims name is there: commands, the tests that these choose, files and folders, and in
-//! these the numbers of the claim.
+//! Existence of the things that claims name: commands, the tests that these choose, files and
+//! folders, and in these the numbers of the claim.
 
 use super::page::Claim;
 use super::{root, sources};
 use std::fs;
 
-/// What of a claim leads nowhere.
+/// Returns the names of a claim that lead nowhere.
 pub(super) fn defects(claim: &Claim) -> Vec<String> {
     let mut wrong = Vec::new();
     for command in &claim.run {
@@ -130,6 +130,7 @@ fn folder_of(package: &str) -> Result<&str, String> {
     match package {
         "cotama" => Ok("cli"),
         "robot" => Ok("firmware/robot"),
+        "cotama-drawing" => Ok("verification/drawing"),
         _ => package.strip_prefix("cotama-").ok_or_else(|| format!("no package {package}")),
     }
 }
@@ -153,7 +154,7 @@ fn commands_that_lead_nowhere_are_found() {
         ("cargo test -p core --lib", "no package core"),
         ("cotama check door", ""),
         ("cotama chequer door", "no such command"),
-        ("tests/proofs/chequer.sh", "there is no tests/proofs/chequer.sh"),
+        ("tests/evidence/proofs/chequer.sh", "there is no tests/evidence/proofs/chequer.sh"),
     ] {
         assert_eq!(is_there(command).err().unwrap_or_default(), why, "{command}");
     }

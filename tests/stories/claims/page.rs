@@ -1,128 +1,105 @@
-//! The page of claims, written from `tests/claims.toml` and the figures that tests assert.
+//! The page of claims, `docs/claims.md`, read in its regular form: topics, and in each of them
+//! items of four parts (claim, known, run, where), each part on lines of its own.
 
-use super::{grouped, root};
-use serde::Deserialize;
-use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write as _;
+use super::{MARK, root};
+use std::collections::BTreeSet;
 use std::fs;
 
-/// How a claim may be known, and what that says; an ellipsis stands for a bound that is named.
-const WORDS: [(&str, &str); 11] = [
-    ("compile time", "no program that breaks it can be built"),
-    ("checker (…)", "it holds in all so many states of the model"),
-    ("exhaustive (…)", "it holds for all so many cases of the bound, and no more is said"),
-    ("machine code, all inputs (…)", "all paths of the compiled code were explored"),
-    ("no panic reachable (…)", "the linker finds no way to a panic, whatever the arguments"),
-    ("Kani (run by Kani)", "Kani holds it for all inputs within the bound"),
-    ("Kani harness, not yet run by Kani", "written for Kani, and run by what is named beside it"),
-    ("property test (…)", "no counterexample was met among so many drawn cases; no proof"),
-    ("sampled", "no counterexample was met among chosen or drawn cases; no proof"),
-    ("simulation", "so it went in the runs of a model of the robot; not the robot itself"),
-    ("pending", "claimed by nobody yet"),
+/// Words by which a claim may be known; an ellipsis stands for a bound that is named.
+const WORDS: [&str; 11] = [
+    "compile time",
+    "checker (…)",
+    "exhaustive (…)",
+    "machine code, all inputs (…)",
+    "no panic reachable (…)",
+    "Kani (run by Kani)",
+    "Kani harness, not yet run by Kani",
+    "property test (…)",
+    "sampled",
+    "simulation",
+    "pending",
 ];
 
-/// The file as it is written.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+const BEFORE: &str = "What claims said before";
+
+/// The page as it is read.
 pub(super) struct Claims {
-    topics: Vec<Topic>,
-    #[serde(rename = "claims")]
     pub(super) all: Vec<Claim>,
-    before: Vec<Before>,
+    /// Ids of each topic.
+    topics: Vec<Vec<String>>,
+    /// Ids of claims whose earlier text is told.
+    before: Vec<String>,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Topic {
-    letter: char,
-    title: String,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, PartialEq)]
 pub(super) struct Claim {
     pub(super) id: String,
-    #[serde(rename = "claim")]
     says: String,
     known: Vec<String>,
-    #[serde(default)]
     how: String,
     pub(super) run: Vec<String>,
-    #[serde(rename = "where")]
     pub(super) places: Vec<String>,
 }
 
-/// What claims said before.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Before {
-    of: Vec<String>,
-    said: String,
-}
-
 impl Claims {
-    /// As they are written, the names of figures in braces.
     pub(super) fn read() -> Self {
-        Self::of(&text())
+        Self::of(&fs::read_to_string(root().join("docs/claims.md")).expect("the claims"))
     }
 
-    fn of(text: &str) -> Self {
-        toml::from_str(text).unwrap_or_else(|error| panic!("tests/claims.toml: {error}"))
-    }
-
-    fn page(&self) -> String {
-        let mut page = String::from(BEGIN);
-        let known: Vec<_> = self.all.iter().flat_map(|it| &it.known).collect();
-        page += "\n| known by | says | claims |\n| --- | --- | ---: |\n";
-        for (word, says) in WORDS {
-            let count = known.iter().filter(|it| is_of(word, it)).count();
-            let name = word.trim_end_matches(" (…)");
-            let _ = writeln!(page, "| {name} | {says} | {count} |");
-        }
-        for Topic { letter, title } in &self.topics {
-            let _ = write!(page, "\n## {title}\n");
-            for claim in self.all.iter().filter(|it| it.id.starts_with(*letter)) {
-                page += "\n";
-                claim.write(&mut page);
+    fn of(page: &str) -> Self {
+        let (mut all, mut topics, mut before) = (Vec::new(), Vec::new(), Vec::new());
+        for topic in page.split("\n## ").skip(1) {
+            let items = topic.split("\n- ").skip(1);
+            if topic.starts_with(BEFORE) {
+                let ids = |item: &str| {
+                    let bold = item.split("**").skip(1).step_by(2).map(str::to_owned);
+                    bold.take_while(|it| is_id(it)).collect::<Vec<_>>()
+                };
+                before = items.flat_map(ids).collect();
+                continue;
             }
+            let claims: Vec<_> = items.map(Claim::of).collect();
+            topics.push(claims.iter().map(|it| it.id.clone()).collect());
+            all.extend(claims);
         }
-        page += "\n## What claims said before\n\n";
-        page += &wrapped(BEFORE, "", "");
-        page += "\n";
-        for Before { of, said } in &self.before {
-            let of: Vec<_> = of.iter().map(|it| format!("**{it}**")).collect();
-            page += &wrapped(&format!("{} {said}", of.join(", ")), "- ", "  ");
-        }
-        page
+        Self { all, topics, before }
     }
 
-    /// What breaks the order of the page, or its vocabulary.
+    /// Returns how many claims are known by each word, named as figures.
+    pub(super) fn counts(&self) -> impl Iterator<Item = (String, u64)> {
+        WORDS.iter().map(|word| {
+            let known = self.all.iter().flat_map(|it| &it.known);
+            let name = word.trim_end_matches("(…)").to_lowercase();
+            let words =
+                name.split(|it: char| !it.is_ascii_alphabetic()).filter(|it| !it.is_empty());
+            let name = format!("claims.{}", words.collect::<Vec<_>>().join("-"));
+            (name, known.filter(|it| is_of(word, it)).count() as u64)
+        })
+    }
+
+    /// Returns the breaches of the page's order, or of its vocabulary.
     pub(super) fn defects(&self) -> Vec<String> {
         let mut wrong = Vec::new();
-        let number = |it: &Claim| {
-            let (letter, number) = it.id.split_at(1);
-            (letter.to_owned(), number.parse::<u32>().expect("a letter and a number"))
-        };
+        let number = |it: &Claim| (it.id[..1].to_owned(), it.id[1..].parse::<u32>());
         let order: Vec<_> = self.all.iter().map(number).collect();
-        if !order.is_sorted_by(|a, b| a < b) {
+        if !order.is_sorted_by(|a, b| (&a.0, a.1.as_ref().ok()) < (&b.0, b.1.as_ref().ok())) {
             wrong.push("not in the order of ids".into());
         }
-        let letters: BTreeSet<_> = order.iter().map(|it| it.0.clone()).collect();
-        let topics: Vec<_> = self.topics.iter().map(|it| it.letter.to_string()).collect();
-        if !letters.into_iter().eq(topics) {
+        let letters = |ids: &Vec<String>| ids.iter().map(|it| it[..1].to_owned()).collect();
+        let topics: Vec<BTreeSet<String>> = self.topics.iter().map(letters).collect();
+        let all: BTreeSet<_> = topics.iter().flatten().collect();
+        if topics.iter().any(|it| it.len() != 1) || all.len() != topics.len() {
             wrong.push("topics are not the letters".into());
         }
         for claim in &self.all {
+            if !is_id(&claim.id) || claim.says.is_empty() {
+                wrong.push(format!("{}: no id, or nothing claimed", claim.id));
+            }
             if claim.known.is_empty() || claim.run.is_empty() || claim.places.is_empty() {
                 wrong.push(format!("{}: no word, no command or no place", claim.id));
             }
-            for known in &claim.known {
-                if WORDS.iter().filter(|it| is_of(it.0, known)).count() != 1 {
-                    wrong.push(format!("{}: `{known}` is none of the words", claim.id));
-                }
-            }
         }
-        for id in self.before.iter().flat_map(|it| &it.of) {
+        for id in &self.before {
             if !self.all.iter().any(|it| it.id == *id) {
                 wrong.push(format!("there is no claim {id}"));
             }
@@ -132,59 +109,75 @@ impl Claims {
 }
 
 impl Claim {
-    /// All that it says, the names of figures in braces.
-    pub(super) fn words(&self) -> String {
-        format!("{} {} {}", self.says, self.known.join(" "), self.how)
-    }
-
-    fn write(&self, page: &mut String) {
-        *page += &wrapped(&format!("**{}** {}", self.id, self.says), "- ", "  ");
-        let known = format!("*Known:* {}. {}", self.known.join("; "), self.how);
-        let places: Vec<_> = self.places.iter().map(|it| format!("`{it}`")).collect();
-        *page += &wrapped(&known, "  ", "  ");
-        *page += &wrapped(&format!("*Run:* {}", self.commands()), "  ", "  ");
-        *page += &wrapped(&format!("*Where:* {}", places.join(", ")), "  ", "  ");
-    }
-
-    /// A command that only adds words to the one before it is said by these.
-    fn commands(&self) -> String {
-        let mut said = String::new();
-        for (at, command) in self.run.iter().enumerate() {
-            let before = at.checked_sub(1).map(|it| self.run[it].as_str());
-            let added = before.and_then(|it| command.strip_prefix(it)).map(str::trim_start);
-            said += if at > 0 { ", " } else { "" };
-            let _ = match added {
-                Some(added) => write!(said, "also with `{added}`"),
-                None => write!(said, "`{command}`"),
-            };
+    fn of(item: &str) -> Self {
+        let item = item.split_whitespace().collect::<Vec<_>>().join(" ");
+        let (id, rest) = item.strip_prefix("**").and_then(|it| it.split_once("** ")).expect(&item);
+        let (says, rest) = rest.split_once(" *Known:* ").expect("how a claim is known");
+        let (known, rest) = rest.split_once(" *Run:* ").expect("commands of a claim");
+        let (run, places) = rest.split_once(" *Where:* ").expect("places of a claim");
+        let (known, how) = known_by(known);
+        let places = places.split('`').skip(1).step_by(2).map(str::to_owned).collect();
+        Self {
+            id: id.into(),
+            says: says.into(),
+            known,
+            how: how.into(),
+            run: commands(run),
+            places,
         }
-        said
+    }
+
+    /// Returns all that it says but figures, which are held to their tests.
+    pub(super) fn words(&self) -> String {
+        let text = format!("{} {} {}", self.says, self.known.join(" "), self.how);
+        let parts: Vec<_> = text.split(MARK).collect();
+        let words = parts.iter().enumerate().map(|(at, part)| {
+            let part = part.split_once("-->").filter(|_| at > 0).map_or(*part, |it| it.1);
+            let is_last = at + 1 == parts.len();
+            part.trim_end_matches(|it: char| !is_last && (it.is_ascii_digit() || it == ','))
+        });
+        words.collect()
     }
 }
 
-const BEGIN: &str = "\
-# Claims, and how each is known
-
-Each claim has a number, what is claimed, how it is known, the commands that show it, and where. It
-says no more than its test: *exact* means that a test asserts the number, *long* what waits for
-`--ignored` and runs in CI, *by hand* what takes longer and does not. This page is written by a test
-from [a file](../tests/claims.toml) and from the figures that other tests assert. `cotama` stands
-for `cargo run --release --`.
-";
-
-const BEFORE: &str = "Claims that said more than was known, what they said, and why they say \
-    something else now. The wrong ones were found by tests that looked where none had looked.";
-
-/// The page, and the names of the figures that it shows.
-pub(super) fn page(figures: &BTreeMap<String, u64>) -> (String, BTreeSet<String>) {
-    let (text, names) = filled(&text(), figures);
-    (Claims::of(&text).page(), names)
+/// Returns the words at the beginning, each with its bound, and what is said behind them.
+fn known_by(text: &str) -> (Vec<String>, &str) {
+    let (mut known, mut rest) = (Vec::new(), text);
+    loop {
+        let is_first = |word: &&&str| rest.starts_with(word.trim_end_matches("…)"));
+        let word = WORDS.iter().find(is_first);
+        let word = word.unwrap_or_else(|| panic!("`{rest}` begins with none of the words"));
+        let length = if word.ends_with("(…)") { rest.find(')').map(|it| it + 1) } else { None };
+        let (found, behind) = rest.split_at(length.unwrap_or(word.len()));
+        known.push(found.to_owned());
+        match behind.strip_prefix("; ") {
+            Some(next) => rest = next,
+            None => return (known, behind.strip_prefix('.').expect(text).trim_start()),
+        }
+    }
 }
 
-/// The file, without the lines that speak of it.
-fn text() -> String {
-    let text = fs::read_to_string(root().join("tests/claims.toml")).expect("the claims");
-    text.lines().filter(|it| !it.starts_with('#')).flat_map(|it| [it, "\n"]).collect()
+/// Returns commands whole: `a`, also with `b` are two.
+fn commands(text: &str) -> Vec<String> {
+    let mut commands: Vec<String> = Vec::new();
+    let mut between = "";
+    for (at, part) in text.split('`').enumerate() {
+        let before = commands.last().filter(|_| between == ", also with ");
+        match before {
+            _ if at % 2 == 0 => between = part,
+            Some(before) => commands.push(format!("{before} {part}")),
+            None => commands.push(part.to_owned()),
+        }
+    }
+    commands
+}
+
+/// Returns whether it is a letter and a number.
+fn is_id(text: &str) -> bool {
+    let mut letters = text.chars();
+    letters.next().is_some_and(|it| it.is_ascii_uppercase())
+        && text.len() > 1
+        && letters.all(|it| it.is_ascii_digit())
 }
 
 /// Whether a claim is known by this word.
@@ -195,56 +188,32 @@ fn is_of(word: &str, known: &str) -> bool {
     }
 }
 
-/// Lines of at most 100 characters; what stands between backticks may be divided at its spaces.
-fn wrapped(text: &str, first: &str, others: &str) -> String {
-    let (mut lines, mut line) = (String::new(), first.to_owned());
-    for word in text.split_whitespace() {
-        let begins = line.len() == first.len().max(others.len());
-        if !begins && line.chars().count() + 1 + word.chars().count() > 100 {
-            lines += &line;
-            lines += "\n";
-            line.clear();
-            line += others;
-        } else if !begins {
-            line += " ";
-        }
-        line += word;
-    }
-    lines + &line + "\n"
-}
-
-/// The text with the figures whose names stand in braces, and these names.
-fn filled(text: &str, figures: &BTreeMap<String, u64>) -> (String, BTreeSet<String>) {
-    let (mut page, mut names) = (String::new(), BTreeSet::new());
-    let mut rest = text;
-    while let Some((before, behind)) = rest.split_once('{') {
-        page += before;
-        match behind.split_once('}') {
-            Some((name, behind)) if !name.contains(',') => {
-                let figure = figures.get(name).unwrap_or_else(|| panic!("no figure `{name}`"));
-                page += &grouped(*figure);
-                names.insert(name.to_owned());
-                rest = behind;
-            }
-            _ => {
-                page += "{";
-                rest = behind;
-            }
-        }
-    }
-    (page + rest, names)
-}
-
 #[test]
-fn figures_stand_where_their_names_are_in_braces() {
-    let figures = BTreeMap::from([("a.b".to_owned(), 1_234_567)]);
-    let (page, names) = filled("of {a.b}, see `x/{y,z}.rs`", &figures);
-    assert_eq!(page, "of 1,234,567, see `x/{y,z}.rs`");
-    assert_eq!(names, BTreeSet::from(["a.b".to_owned()]));
+fn a_claim_is_read_from_its_four_parts() {
+    let item = "**A1** says\n  1,234<!--=a.b--> of 56.\n  *Known:* checker (7 states); sampled.\n \
+                So it is.\n  *Run:* `a b`, also with `-- c`, `d`\n  *Where:* `x`, `y/{z,w}`\n";
+    let claim = Claim::of(item);
+    let all = |it: &[&str]| it.iter().map(|it| (*it).to_owned()).collect::<Vec<_>>();
+    let expected = Claim {
+        id: "A1".into(),
+        says: "says 1,234<!--=a.b--> of 56.".into(),
+        known: all(&["checker (7 states)", "sampled"]),
+        how: "So it is.".into(),
+        run: all(&["a b", "a b -- c", "d"]),
+        places: all(&["x", "y/{z,w}"]),
+    };
+    assert_eq!(claim, expected);
+    assert_eq!(claim.words(), "says  of 56. checker (7 states) sampled So it is.");
 }
 
 #[test]
 fn a_word_is_known_by_its_name_and_a_bound_where_it_has_one() {
     assert!(is_of("checker (…)", "checker (12 states)") && !is_of("checker (…)", "checker"));
     assert!(is_of("sampled", "sampled") && !is_of("sampled", "sampled (2)"));
+}
+
+#[test]
+#[should_panic(expected = "none of the words")]
+fn a_claim_that_is_known_by_another_word_is_refused() {
+    known_by("guessed. By us.");
 }

@@ -2,7 +2,7 @@
 
 use super::{Played, load, nets, with_size_of};
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_core::net::{Defect, EventId, PlaceId, TransitionId};
+use cotama_core::net::{EventId, NetError, PlaceId, TransitionId};
 use cotama_core::player::{
     Advanced, CATCH_UP, Checked, Loaded, Outcome, Packed, Player, SETTLE, Stepped, Why,
 };
@@ -215,5 +215,5 @@ fn a_place_starts_with_at_most_65_535_tokens() {
         Packed::<1, 0>::alone(&view.net()).err()
     };
     assert_eq!(stock(65_535), None);
-    assert_eq!(stock(65_536), Some(Defect::Place { place: 0 }));
+    assert_eq!(stock(65_536), Some(NetError::Place { place: 0 }));
 }

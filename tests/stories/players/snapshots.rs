@@ -1,4 +1,4 @@
-//! What a player stores comes back as it was, and what is damaged breaks no law.
+//! A stored player comes back as it was, and a damaged one breaks no law.
 
 use super::{Act, Log, Played, delay, nets, systems, with_size_of};
 use cotama_core::checksum::crc32;
@@ -176,7 +176,7 @@ fn assert_lawful<const W: usize, const C: usize, const S: usize>(
 }
 
 #[test]
-fn what_is_stored_comes_back_and_what_is_damaged_breaks_no_law() {
+fn a_stored_player_comes_back_and_a_damaged_one_breaks_no_law() {
     let mut refused = [0; 6];
     for time in [Time::Without, Time::With] {
         for (seed, net, mut draw) in nets(400_000..402_500, time) {
@@ -196,12 +196,12 @@ fn a_system_that_is_stored_comes_back_with_all_that_waits() {
         let (draw, refused) = (&mut draw, &mut refused);
         system.with(|it| with_size_of!(it, draw, storing_changes_nothing(it, seed, draw, refused)));
     }
-    // What is not settled may wait for room in a mailbox: only systems without any are refused,
+    // An unsettled marking may wait for room in a mailbox: only systems without any are refused,
     // and those are few.
     assert!(refused[..5].iter().all(|&it| it > 100) && refused[5] > 0, "{refused:?}");
 }
 
-/// What the player of one net says to the snapshot of another one.
+/// Returns the answer of one net's player to the snapshot of another one.
 fn refusal(of: &OwnedNet, by: &OwnedNet) -> Option<RestoreError> {
     let [of, by] = [of, by].map(|it| OwnedSystem::alone(it.clone()));
     let stored = of.with(|of| {
@@ -348,7 +348,7 @@ impl Stored for Light {
 }
 
 #[test]
-fn what_stands_for_nothing_is_not_read() {
+fn a_payload_without_meaning_is_not_read() {
     let stored: Snapshot<1, 0, 2, Light> =
         Snapshot { fingerprint: 7, marking: [1], clocks: [], slots: [Light::Green, Light::Red] };
     let mut room = [0; 22];

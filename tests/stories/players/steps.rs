@@ -54,7 +54,8 @@ fn steps_are_those_of_the_book<const W: usize, const C: usize, const S: usize>(
     }
 }
 
-/// What fired in a step can also fire one after another, and comes to the same marking.
+/// Checks that the transitions of a step can also fire one after another, and come to the same
+/// marking.
 fn is_one_of_the_interleavings(mut before: Game<'_>, after: &Game<'_>, seed: u64) {
     for told in &after.told[before.told.len()..] {
         let Told::Fired(id, ..) = *told else { panic!("in a step transitions fire") };

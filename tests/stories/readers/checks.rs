@@ -1,4 +1,4 @@
-//! What must hold of a refusal.
+//! Conditions of a refusal.
 
 use cotama_models::missions::MissionErrors;
 
@@ -7,8 +7,8 @@ pub(super) fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// That a place is one of the text, or right behind its end: line and column in characters (some
-/// readers count bytes), from 1.
+/// Checks that a place is one of the text, or right behind its end: line and column in characters
+/// (some readers count bytes), from 1.
 #[track_caller]
 pub(super) fn is_place(text: &str, line: usize, column: usize) {
     // XML ends lines with a carriage return alone, too; the others with line feeds.
@@ -18,13 +18,13 @@ pub(super) fn is_place(text: &str, line: usize, column: usize) {
     assert!((1..=longest + 2).contains(&column), "column {column} of at most {longest}");
 }
 
-/// That a span of bytes is one of the text.
+/// Checks that a span of bytes is one of the text.
 #[track_caller]
 pub(super) fn is_span(text: &str, span: std::ops::Range<usize>) {
     assert!(text.get(span.clone()).is_some(), "{span:?} of {} bytes", text.len());
 }
 
-/// What a reader of mission files, or of their kin, answers.
+/// Checks the errors of a reader of mission files, or of their kin.
 #[track_caller]
 pub(super) fn errors(text: &str, errors: &MissionErrors) {
     assert!(!errors.diagnostics().is_empty());

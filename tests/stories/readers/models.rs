@@ -11,22 +11,26 @@ use std::sync::LazyLock;
 
 super::readers! {
     missions: mission, [
-        "[[zone]]\n", "[[tio]]\n", "[[objective]]\n", "[hardware.x]\n", "[limits]\n", "source = \"\"\n",
+        "[[zone]]\n", "[[tio]]\n", "[[objective]]\n", "[hardware.x]\n", "[limits]\n",
+        "source = \"\"\n",
         "\"\"\"", "'''", " = ", "{}", "[]", "true", "x_end_mm = ", "\"MOV\"", "\"LOC\"",
     ];
     faults: faults, [
-        "[[event]]\n", "[[random]]\n", "kind = 'fault'\n", "kind = 'obstacle'\n", "units_lost = 1\n",
+        "[[event]]\n", "[[random]]\n", "kind = 'fault'\n", "kind = 'obstacle'\n",
+        "units_lost = 1\n",
         "power_error_permille = {}\n", "x_mm = 1\n", "per_km = ", "{}", "[]", "'''",
     ];
     fmeca: fmeca, [
-        "[[mode]]\n", "[[flag]]\n", "[[probe]]\n", "severity = \"hard\"\n", "flags = []\n", "shows = [",
+        "[[mode]]\n", "[[flag]]\n", "[[probe]]\n", "severity = \"hard\"\n", "flags = []\n",
+        "shows = [",
         "sometimes = ", "silent = ", "mtbf_h = 1\n", "\"\"\"", "\"fatal\"", "period_h = ",
     ];
     fmeca_csv: fmeca_csv, [
         ",", ";", "\"\"", "\",\"", "\n", "severity", "flags", "mtbf_h", "hard", "\"a\nb\"", ",,,,,",
     ];
     teams: teams, [
-        "null", "[]", "{}", "\"max\"", "\"mean\"", "\"coalition\"", "\"single\"", "\"simultaneous\"",
+        "null", "[]", "{}", "\"max\"", "\"mean\"", "\"coalition\"", "\"single\"",
+        "\"simultaneous\"",
         "\"cost\":", "\"plans\":", "\"skip_cost\":", "\\u0000",
     ];
     traces: traces, [
@@ -144,7 +148,8 @@ fn traces(bytes: &[u8]) -> bool {
     }
 }
 
-/// It is written as it was read; what is not read has no lines, so the text itself is its place.
+/// A requirement is written as it was read; a text that cannot be read has no lines, so the text
+/// itself is its place.
 fn requirement(bytes: &[u8]) -> bool {
     let text = text(bytes);
     match text.parse::<Requirement>() {

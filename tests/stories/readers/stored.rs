@@ -102,7 +102,7 @@ fn goes_on(room: &mut Room) {
 
 /// The corpus: the room at its start, with mail and a clock that runs, and with no light left.
 #[test]
-fn the_corpus_is_what_a_player_stores() {
+fn the_corpus_is_a_stored_player() {
     let written = |name: &str, room: &Room| {
         let mut bytes = [0; Snapshot::BYTES];
         of::snapshots::READER.keeps(name, room.snapshot().write(&mut bytes).unwrap());

@@ -12,7 +12,8 @@ use std::sync::LazyLock;
 
 super::readers! {
     pnml: read_pnml, [
-        "<page>", "</page>", "<place id='p'/>", "<transition id='t'/>", "<arc source='p' target='t'/>",
+        "<page>", "</page>", "<place id='p'/>", "<transition id='t'/>",
+        "<arc source='p' target='t'/>",
         "<!--", "-->", "]]>", "<![CDATA[", "&lt;", "&#0;", "<!DOCTYPE x [", "<text>", "</text>",
         "<referencePlace id='r' ref='r'/>", "<?xml version='1.0' encoding='latin1'?>",
     ];
@@ -105,10 +106,10 @@ fn is_refusal(text: &str, error: &PropertyError) {
     assert!(!error.message.is_empty());
 }
 
-/// That a question that was read is read again as it is shown.
+/// Checks that a question that was read is read again as it is shown.
 fn is_shown(question: &Question) {
     let shown = question.display(&DOOR).to_string();
-    // What is shown with all its brackets may be longer than what is read.
+    // A question shown with all its brackets may be longer than the reader allows.
     if shown.len() <= property::MAX_TEXT
         && let Ok(again) = property::parse(&shown, &DOOR)
     {
@@ -150,7 +151,7 @@ fn read_certificate(bytes: &[u8]) -> bool {
     let read = Certificate::read(&text);
     match certificate::verify(&text) {
         Ok(_) => {
-            // That no forged one is believed is another test.
+            // Another test shows that no forged certificate is believed.
             assert!(read.is_ok());
             true
         }

@@ -1,12 +1,13 @@
-//! What could have been recorded in place of what was.
+//! The records allowed in place of the recorded one.
 
 use crate::play::{Game, Numbered, Unused};
 use cotama_core::net::{EventId, TransitionId};
 use cotama_core::player::Why;
 use cotama_core::units::Millis;
 
-/// What could have been recorded next.
+/// The records allowed next.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Allowed {
     /// The transitions that could fire; just one where the player had to fire it.
     pub fired: Vec<MayFire>,
@@ -16,10 +17,11 @@ pub struct Allowed {
 
 /// A transition that could fire.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct MayFire {
     /// The transition.
     pub transition: String,
-    /// Not before.
+    /// Earliest time.
     pub earliest: Millis,
     /// Not after; none: at any time after that.
     pub latest: Option<Millis>,
@@ -27,6 +29,7 @@ pub struct MayFire {
 
 /// An event that would have been used.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct MayTell {
     /// The event.
     pub event: String,
@@ -35,7 +38,7 @@ pub struct MayTell {
 }
 
 impl Allowed {
-    /// What is allowed in a game.
+    /// Returns the records allowed in a game.
     pub(super) fn of(numbered: &Numbered, game: &dyn Game<'_>) -> Self {
         let whole = numbered.whole();
         let ids = (0..whole.transitions.len() as u32).map(TransitionId);
@@ -50,6 +53,20 @@ impl Allowed {
             Some(MayTell { event: event.name.clone(), transition })
         });
         Self { fired: fired.collect(), events: events.collect() }
+    }
+
+    /// The same with what is allowed in another way.
+    pub(super) fn add(&mut self, other: Self) {
+        for it in other.fired {
+            if !self.fired.contains(&it) {
+                self.fired.push(it);
+            }
+        }
+        for it in other.events {
+            if !self.events.contains(&it) {
+                self.events.push(it);
+            }
+        }
     }
 
     /// Just this.
@@ -88,7 +105,7 @@ pub(super) fn window(
     Some((Millis(earliest), Some(Millis(latest))))
 }
 
-/// What would become of an event at a later instant.
+/// Returns the outcome of an event at a later instant.
 pub(super) fn offered(
     game: &dyn Game<'_>,
     at: Millis,

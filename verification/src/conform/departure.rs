@@ -1,4 +1,4 @@
-//! Where a recording departs from the model, in words.
+//! The departure of a recording from the model, in words.
 
 use super::allowed::Allowed;
 use crate::play::{Game, NotPlayed, Numbered, Unused, ignored_in, not_enabled, overflowing};
@@ -6,16 +6,16 @@ use cotama_core::net::{EventId, TransitionId, Within};
 use cotama_core::player::Why;
 use cotama_core::units::Millis;
 
-/// Where a recording departs from the model.
+/// The departure of a recording from the model.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Departure {
     /// The line, from 1.
     pub line: usize,
-    /// When.
+    /// Time of the departure.
     pub at: Millis,
     /// Why it cannot be so.
     pub reason: String,
-    /// What could have been recorded there.
+    /// The records allowed there.
     pub allowed: Allowed,
 }
 
@@ -24,7 +24,7 @@ pub struct Departure {
 pub enum Refused {
     /// The model cannot be played.
     Model(NotPlayed),
-    /// It has no event, transition or net of this name.
+    /// The model has no event, transition or net of this name.
     Name {
         /// The line that says it, and the column there; none for the header.
         at: Option<(usize, usize)>,
@@ -32,7 +32,7 @@ pub enum Refused {
         kind: &'static str,
         /// The name.
         name: String,
-        /// Those that there are.
+        /// The known names.
         known: Vec<String>,
     },
     /// The model does not come to rest at this instant.

@@ -44,13 +44,19 @@
 mod allowed;
 mod checked;
 mod departure;
+mod hidden;
 mod names;
+mod pending;
 mod read;
+mod rules;
+mod verdict;
+mod way;
 
 pub use allowed::{Allowed, MayFire, MayTell};
-pub use checked::{Options, Verdict, conform};
+pub use checked::{MOST_STATES, Options, conform};
 pub use departure::{Departure, Refused};
 pub use read::{Line, MAX_LINES, MAX_MS, Recording, RecordingError, SCHEMA, What};
+pub use verdict::Verdict;
 
 /// The JSON schema of a line of a recording.
 ///

@@ -1,11 +1,11 @@
 //! A player of any system, whatever its size.
 
 use super::numbered::{Numbered, Seat};
-use cotama_core::net::{Defect, EventId, Place, PlaceId, TransitionId};
+use cotama_core::net::{EventId, NetError, Place, PlaceId, TransitionId};
 use cotama_core::player::{
     Checked, Firing, Loaded, Outcome, Packed, Player, Stepped, Why, clocks, words,
 };
-use cotama_core::system::{System, SystemDefect};
+use cotama_core::system::{System, SystemError};
 use cotama_core::units::Millis;
 use std::fmt;
 
@@ -18,10 +18,11 @@ const SLOTS: usize = u16::MAX as usize;
 
 /// A transition that fired, by its number on the [`Numbered`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Fired {
     /// The transition.
     pub transition: TransitionId,
-    /// When.
+    /// Time of the firing.
     pub at: Millis,
     /// Whether an event that was offered from outside made it fire.
     pub offered: bool,
@@ -30,7 +31,7 @@ pub struct Fired {
 /// Why no transition uses an event that is offered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unused {
-    /// It is ignored.
+    /// The event is ignored.
     Ignored(Why<TransitionId>),
     /// A mailbox on the way is full, and nothing has happened.
     Full {
@@ -67,9 +68,12 @@ pub trait Game<'c> {
     fn step(&mut self, at: Millis, events: &[EventId], fired: &mut Vec<Fired>) -> Stepped;
     /// The same game, to go on with in another way.
     fn fork(&self) -> Box<dyn Game<'c> + 'c>;
+    /// Returns marking and clocks: two games of one system where these and the time are the same go
+    /// on alike.
+    fn state(&self) -> Vec<u64>;
 }
 
-/// What is played: bounds are checked, so that steps can be taken too.
+/// The player of a game: bounds are checked, so that steps can be taken too.
 type Played<'c, const W: usize, const C: usize> = Checked<Loaded<'c, W, C, SLOTS>>;
 
 #[derive(Clone, Copy)]
@@ -146,9 +150,17 @@ impl<'c, const W: usize, const C: usize> Game<'c> for Playing<'c, W, C> {
     fn fork(&self) -> Box<dyn Game<'c> + 'c> {
         Box::new(*self)
     }
+
+    fn state(&self) -> Vec<u64> {
+        let (marking, clocks) = (self.player.marking(), self.player.clocks());
+        let used = marking.iter().rposition(|&it| it != 0).map_or(0, |it| it + 1);
+        let running = clocks.iter().zip(0_u64..).filter(|it| *it.0 != 0);
+        let running = running.map(|(&elapsed, at)| at << 32 | u64::from(elapsed));
+        std::iter::once(used as u64).chain(marking[..used].iter().copied()).chain(running).collect()
+    }
 }
 
-/// What is done with a game that has just begun, and with what fired at its start.
+/// A continuation for a game that has just begun, with the transitions that fired at its start.
 type Then<'t> = dyn for<'c> FnMut(Box<dyn Game<'c> + 'c>, Vec<Fired>) + 't;
 
 impl Numbered {
@@ -191,6 +203,7 @@ impl Numbered {
 
 /// Why a net or a system cannot be played.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum NotPlayed {
     /// A marking is too large.
     Words {
@@ -206,17 +219,17 @@ pub enum NotPlayed {
     /// This place starts with more than its bound, or more than 65,535 tokens.
     Place(String),
     /// The net or the system does not fit together.
-    Defect(SystemDefect),
+    Defect(SystemError),
 }
 
-fn refused(system: &System<'_>, defect: SystemDefect) -> NotPlayed {
+fn refused(system: &System<'_>, defect: SystemError) -> NotPlayed {
     match defect {
-        SystemDefect::Net { component, defect: Defect::Place { place } } => {
+        SystemError::Net { component, defect: NetError::Place { place } } => {
             let net = system.components.get(usize::from(component)).map(|it| it.net);
             let name = net.and_then(|it| it.places.get(place)).map_or("?", |it| it.name);
             NotPlayed::Place(name.to_owned())
         }
-        SystemDefect::TooLong => NotPlayed::Parts,
+        SystemError::TooLong => NotPlayed::Parts,
         other => NotPlayed::Defect(other),
     }
 }
@@ -241,7 +254,7 @@ impl fmt::Display for NotPlayed {
             Self::Place(name) => {
                 write!(f, "the net cannot be played: place `{name}` starts with too many tokens")
             }
-            Self::Defect(SystemDefect::Net { defect, .. }) => {
+            Self::Defect(SystemError::Net { defect, .. }) => {
                 write!(f, "the net cannot be played: {defect}")
             }
             Self::Defect(defect) => write!(f, "the nets cannot be played: {defect}"),
@@ -252,7 +265,7 @@ impl fmt::Display for NotPlayed {
 impl std::error::Error for NotPlayed {}
 
 impl NotPlayed {
-    /// What to do about it, where that is known.
+    /// Returns the remedy, where it is known.
     pub fn help(&self) -> Option<&'static str> {
         match self {
             Self::Words { unbounded: true, .. } => {

@@ -36,6 +36,7 @@ mod game;
 mod needs;
 mod numbered;
 
+pub use cotama_formats::condition;
 pub use game::{Fired, Game, NotPlayed, Unused};
-pub use needs::{condition, ignored_in, not_enabled, overflowing};
+pub use needs::{ignored_in, not_enabled, overflowing};
 pub use numbered::Numbered;

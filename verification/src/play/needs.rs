@@ -1,6 +1,7 @@
-//! What a transition lacks, in words.
+//! The needs that a transition lacks, in words.
 
-use cotama_core::net::{Arc, EventId, Ignored, Net, Place, PlaceId, Role, Transition};
+use cotama_core::net::{Arc, EventId, Ignored, Net, PlaceId, Transition};
+use cotama_formats::condition;
 
 /// The most transitions of which it is said what they lack.
 const SHOWN: usize = 2;
@@ -28,21 +29,7 @@ fn lacks(net: &Net<'_>, tokens: &dyn Fn(PlaceId) -> u32, it: &Transition<'_>) ->
     lacking.map(|&arc| condition(net, arc)).collect::<Vec<_>>().join(" & ")
 }
 
-/// What an arc asks for, as a guard.
-pub fn condition(net: &Net<'_>, arc: Arc) -> String {
-    let place = |PlaceId(id): PlaceId| net.places.get(id as usize);
-    let name = |id| place(id).map_or("?", |it: &Place<'_>| it.name);
-    match place(arc.place).map(|it| (it.role, it.bound)) {
-        Some((Role::Complement(of), 1)) => format!("!{}", name(of)),
-        Some((Role::Complement(of), bound)) => {
-            format!("{} <= {}", name(of), bound.saturating_sub(arc.weight))
-        }
-        _ if arc.weight == 1 => name(arc.place).to_owned(),
-        _ => format!("{} >= {}", name(arc.place), arc.weight),
-    }
-}
-
-/// Where an event is ignored on purpose at these tokens, in words.
+/// Returns the condition under which an event is ignored on purpose at these tokens, in words.
 ///
 /// ```
 /// use cotama_core::net::{EventId, PlaceId};

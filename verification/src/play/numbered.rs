@@ -6,13 +6,13 @@ use cotama_core::system::{Binding, Clear, Component, Delivery, Link, Of, System,
 use cotama_core::units::Millis;
 use std::collections::HashMap;
 
-/// Where the tokens of a place are.
+/// The location of the tokens of a place.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Seat {
     Place(Of<PlaceId>),
-    /// What waits for this event.
+    /// The mailbox in which this event waits.
     Mailbox(Of<EventId>),
-    /// What a place lacks to its bound, where no net counts it.
+    /// The free room of a place up to its bound, where no net counts it.
     Complement {
         of: Of<PlaceId>,
         bound: u32,
@@ -256,6 +256,51 @@ impl Numbered {
         let event = net.transitions.get(own as usize)?.on?;
         let event = &net.events.get(event.0 as usize)?.name;
         Some(if self.is_system() { format!("{name}.{event}") } else { event.clone() })
+    }
+
+    /// Returns the outputs of a transition in order: the name, `NET.OUTPUT` in a system, and
+    /// whether another net hears it.
+    pub fn says(&self, id: TransitionId) -> Vec<(String, bool)> {
+        let Some((net, name, TransitionId(own))) = self.net_of(id) else { return Vec::new() };
+        let component = self.first.partition_point(|&first| first <= id.0).wrapping_sub(1);
+        let emits = net.transitions.get(own as usize).map_or(&[][..], |it| &it.emits);
+        let said = emits.iter().filter_map(|&id| {
+            let output = &net.outputs.get(id.0 as usize)?.name;
+            let said = if self.is_system() { format!("{name}.{output}") } else { output.clone() };
+            let heard = |it: &Link| usize::from(it.from.component) == component && it.from.id == id;
+            Some((said, self.links.iter().any(heard)))
+        });
+        said.collect()
+    }
+
+    /// For each transition the name of the line of the definition that it comes from, where that
+    /// line stands for several transitions: `still` of `still.missed_0`.
+    pub fn line_names(&self) -> Vec<Option<&str>> {
+        let start = |name: &str| name.find('.').filter(|&at| at > 0);
+        // The name that all transitions of a line begin with, if they do, and how many they are.
+        let mut lines: HashMap<(usize, u32), (Option<&str>, usize)> = HashMap::new();
+        for (net, at) in self.nets.iter().zip(0_usize..) {
+            for it in &net.transitions {
+                let base = start(&it.name).map(|end| &it.name[..end]);
+                let line = lines.entry((at, it.line)).or_insert((base, 0));
+                *line = (line.0.filter(|&one| Some(one) == base), line.1 + 1);
+            }
+        }
+        let mut whole = self.whole.transitions.iter();
+        let mut names = Vec::with_capacity(self.whole.transitions.len());
+        for (net, at) in self.nets.iter().zip(0_usize..) {
+            for (it, whole) in net.transitions.iter().zip(&mut whole) {
+                let named = match lines.get(&(at, it.line)) {
+                    Some((Some(base), 2..)) => {
+                        let after = it.name.len() - base.len();
+                        Some(&whole.name[..whole.name.len() - after])
+                    }
+                    _ => None,
+                };
+                names.push(named);
+            }
+        }
+        names
     }
 
     /// The name of the net of a transition.

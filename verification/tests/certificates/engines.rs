@@ -3,6 +3,9 @@
 use crate::certificates::random::Dice;
 use crate::certificates::stories::{a, at_most, e, f, g, has, not};
 use crate::certificates::{mutated, shown};
+use cotama_checker::structural::certificate::DeadTransitions;
+use cotama_checker::structural::{Answer, Limits, Structure};
+use cotama_checker::stubborn;
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::net::{PlaceId, TransitionId};
 use cotama_models::nets::families::{fms, kanban, philosophers, swimming_pool, token_ring};
@@ -10,9 +13,7 @@ use cotama_verification::certificate::{Certificate, Evidence, Formula, Question,
 use cotama_verification::coverability::{self, Bounded};
 use cotama_verification::property::{self, Linear};
 use cotama_verification::pt::Pt;
-use cotama_verification::structural::certificate::DeadTransitions;
-use cotama_verification::structural::{Answer, Limits, Structure};
-use cotama_verification::{explicit, stubborn, temporal};
+use cotama_verification::{explicit, temporal};
 
 fn pt(net: &OwnedNet) -> Pt {
     Pt::from(&net.view().net())
@@ -38,8 +39,8 @@ fn is_shown(certificate: &Certificate) -> String {
     shown(certificate)
 }
 
-/// What the structure of a net says, as certificates: whether it stops, is safe, and the most
-/// tokens of each place.
+/// Returns the proofs of the structure of a net, as certificates: whether it stops, is safe, and
+/// the most tokens of each place.
 fn structural(pt: &Pt) -> Vec<Certificate> {
     let mut structure = Structure::new(pt, &Limits::default());
     let mut found = Vec::new();
@@ -95,7 +96,7 @@ fn structural(pt: &Pt) -> Vec<Certificate> {
 }
 
 #[test]
-fn what_the_structure_of_well_known_nets_says_is_shown() {
+fn the_structure_of_well_known_nets_gives_valid_certificates() {
     let mut kinds = Vec::new();
     for pt in families() {
         let found = structural(&pt);
@@ -179,7 +180,8 @@ fn pass_through_again(numbers: std::ops::Range<usize>) {
     for pt in &families()[numbers] {
         let graph = explicit::Graph::new(pt, &explicit::Limits::default(), &|_| ()).unwrap();
         let live = graph.liveness().is_live();
-        let certificate = Certificate::of(pt, "", Question::Live, live, Evidence::graph(&graph));
+        let certificate =
+            Certificate::of(pt, "", Question::Live, live, Evidence::Graph(graph.states()));
         is_shown(&certificate);
         let other = Certificate { verdict: !live, ..certificate };
         assert_eq!(
@@ -203,7 +205,7 @@ fn a_counter_counts_without_end() {
     else {
         panic!("it counts on")
     };
-    let evidence = Evidence::growth(&counter, &growth).unwrap();
+    let evidence = growth.evidence(&counter).unwrap();
     let unbounded = |places: &[&str]| {
         let places = places.iter().map(|it| (*it).to_owned()).collect();
         Certificate::of(&counter, "", Question::Unbounded { places }, true, evidence.clone())
@@ -239,7 +241,7 @@ fn a_run_that_a_search_finds_is_shown() {
 }
 
 #[test]
-fn what_the_structure_of_random_nets_says_is_shown() {
+fn the_structure_of_random_nets_gives_valid_certificates() {
     let (mut dice, mut count) = (Dice(11), 0);
     for _ in 0..300 {
         let pt = crate::certificates::random::any_net(&mut dice);

@@ -9,7 +9,7 @@ use serde_json::json;
 
 pub(crate) fn graph(pt: &Pt, question: Question, verdict: bool) -> Certificate {
     let graph = explicit::Graph::new(pt, &explicit::Limits::default(), &|_| ()).unwrap();
-    Certificate::of(pt, "", question, verdict, Evidence::graph(&graph))
+    Certificate::of(pt, "", question, verdict, Evidence::Graph(graph.states()))
 }
 
 /// Markings: full 2; 1 and 1; empty 2; broken.

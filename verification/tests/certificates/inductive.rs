@@ -19,9 +19,9 @@ fn gloves() -> Certificate {
             ("hang_up", &[("worn", 1)], &[("gloves", 2)]),
         ],
     );
-    // None, or two at least.
+    // No glove, or two at least.
     let holds = Formula::Or(vec![not(has("gloves", 1)), has("gloves", 2)]);
-    // What is assumed: gloves + 2 worn <= 2; that it can fire; that one glove is left.
+    // Assumptions: gloves + 2 worn <= 2; it can fire; one glove is left.
     let kept = vec![
         ("take".to_owned(), vec![leaf(&[(0, 1), (2, 1)])]),
         ("hang_up".to_owned(), vec![leaf(&[(3, 1)])]),
@@ -48,7 +48,7 @@ fn there_is_never_one_glove_alone() {
 }
 
 #[test]
-fn what_a_transition_breaks_is_no_fact() {
+fn an_inequality_that_a_transition_breaks_is_no_fact() {
     let fact = "/evidence/refutation/facts/1/inductive";
     let at = |pointer: &str| format!("{fact}{pointer}");
     let here = "evidence.refutation.facts[1]";

@@ -16,7 +16,7 @@ mod trace;
 use cotama_verification::certificate::{Certificate, verify};
 use serde_json::Value;
 
-/// What a certificate shows, in words.
+/// Returns the proven statement of a certificate, in words.
 fn shown(certificate: &Certificate) -> String {
     verify(&certificate.text())
         .unwrap_or_else(|error| panic!("{error}\n{}", certificate.text()))

@@ -146,7 +146,7 @@ pub(crate) fn change(json: &mut Value, dice: &mut Dice) {
 }
 
 #[test]
-fn what_is_believed_of_a_changed_certificate_is_so() {
+fn a_changed_certificate_that_is_accepted_is_true() {
     let (certificates, mut dice) = (certificates(), Dice(1));
     let (mut believed, mut unbounded) = (0, 0);
     for round in 0..20_000 {

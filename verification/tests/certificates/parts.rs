@@ -172,7 +172,7 @@ fn a_formula_of_the_property_language_is_carried_over() {
 }
 
 #[test]
-fn what_is_no_certificate_is_told_by_line_and_column() {
+fn a_text_that_is_no_certificate_is_refused_by_line_and_column() {
     let error = |text: &str| verify(text).unwrap_err().to_string();
     assert_eq!(error(""), "certificate: EOF while parsing a value at line 1 column 0");
     assert_eq!(

@@ -108,7 +108,7 @@ pub(crate) fn certificates(dice: &mut Dice, count: usize) -> Vec<Certificate> {
 }
 
 #[test]
-fn the_checker_finds_what_a_search_finds() {
+fn the_checker_agrees_with_a_search() {
     let mut seen = [0, 0];
     for certificate in certificates(&mut Dice(4), 2_000) {
         shown(&certificate);

@@ -286,7 +286,7 @@ fn a_cut_excludes_fractions() {
 }
 
 #[test]
-fn what_is_assumed_in_one_case_is_not_known_in_another() {
+fn an_assumption_of_one_case_is_not_known_in_another() {
     let track = track();
     let waits = Formula::Or(vec![has("wait1", 1), has("wait2", 1)]);
     let both = Formula::And(vec![has("on1", 1), has("on2", 1), waits]);

@@ -15,7 +15,7 @@ pub(crate) struct Space {
 }
 
 impl Space {
-    /// `None` when there are more than so many markings.
+    /// Returns the space; `None` when there are more than so many markings.
     pub(crate) fn new(net: &Value, most: usize) -> Option<Self> {
         let pair = |it: &Value| (it[0].as_str().unwrap().to_owned(), it[1].as_i64().unwrap());
         let list = |it: &Value| it.as_array().unwrap().iter().map(pair).collect::<Vec<_>>();
@@ -116,7 +116,7 @@ impl Space {
         list.into_iter().map(|it| !it).collect()
     }
 
-    /// Where a formula of CTL holds, by fixed points.
+    /// Returns the markings in which a formula of CTL holds, by fixed points.
     fn holds(&self, formula: &Value) -> Option<Vec<bool>> {
         let all = 0..self.markings.len();
         if formula == "deadlock" {

@@ -150,7 +150,7 @@ fn a_broken_battery_ends_the_hope_that_it_works_again() {
 }
 
 #[test]
-fn a_negation_turns_around_what_a_way_has_to_show() {
+fn a_negation_turns_around_the_claim_of_a_path() {
     let battery = battery();
     let way = |formula: Formula, verdict| {
         let evidence = Evidence::trace(&battery, &[0, 0]);

@@ -52,7 +52,7 @@ fn shown(verdict: &Verdict) -> String {
 #[derive(Debug, Default, PartialEq, Eq)]
 struct Counts {
     asked: usize,
-    /// Of which the verdict is public.
+    /// Questions with a public verdict.
     compared: usize,
     certified: usize,
     /// With a run that replays.
@@ -97,7 +97,7 @@ fn every_public_property_has_its_verdict_a_certificate_and_a_run() {
 }
 
 #[test]
-fn verdicts_are_the_same_when_nobody_asks_for_evidence() {
+fn verdicts_are_the_same_without_evidence() {
     let Some(folder) = folder("public verdicts without evidence") else { return };
     let counts = answers(&folder, false);
     let expected = Counts {

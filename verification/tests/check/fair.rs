@@ -1,4 +1,4 @@
-//! What is assumed of runs.
+//! Assumptions on runs.
 
 use super::timed_logic::assumptions;
 use crate::check::{named, replay};
@@ -24,7 +24,7 @@ net! {
             Called,
             /// Somebody waits, and something is in its way.
             Blocked,
-            /// It is there.
+            /// The lift is there.
             There
         }
         events { Call, Again, Block, Clear, Arrive, Leave }
@@ -48,7 +48,7 @@ fn said(property: &str) -> String {
 }
 
 #[test]
-fn who_only_calls_again_and_again_is_no_reason_for_never() {
+fn repeated_calls_alone_are_no_reason_for_never() {
     assert!(said("AG (Called -> AF There)").contains("step 2 repeats for ever (`again`)"));
     assert_holds!(lift::NET, "AG (Called -> AF (There | Blocked)) assuming weak(arrive)");
     // Arriving is not possible all the time: what is in the way comes and goes.
@@ -58,7 +58,7 @@ fn who_only_calls_again_and_again_is_no_reason_for_never() {
 }
 
 #[test]
-fn what_one_run_does_again_and_again_is_told_on_fair_runs() {
+fn formulas_about_recurrence_hold_on_fair_runs() {
     assert_holds!(
         lift::NET,
         "A (G F There | F G Blocked) assuming strong(arrive)",
@@ -106,7 +106,7 @@ fn without_a_fair_run_all_runs_do_all_things() {
 }
 
 #[test]
-fn the_front_says_of_two_thousand_nets_what_the_engine_says_and_its_runs_replay() {
+fn the_front_agrees_with_the_engine_on_two_thousand_nets_and_its_runs_replay() {
     let mut random = Random(61);
     let mut shown = 0;
     for _ in 0..2_000 {
@@ -152,11 +152,11 @@ fn space(pt: &Pt) -> Space<'_> {
         }
         successors.push(next);
     }
-    Space { net: pt, markings, successors }
+    Space::of(pt, markings, successors)
 }
 
 #[test]
-fn formulas_of_ltl_on_fair_runs_of_nets_are_what_the_oracle_says() {
+fn formulas_of_ltl_on_fair_runs_agree_with_the_oracle() {
     let (mut random, mut compared, mut changed) = (Random(62), 0, 0);
     while compared < 60 {
         let pt = if compared % 2 == 0 { small(&mut random) } else { side_by_side(&mut random) };

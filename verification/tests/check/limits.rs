@@ -1,9 +1,9 @@
 //! Every engine keeps the limits, and what is known is said.
 
+use cotama_checker::explicit::{Explicit, Limit, Limits};
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_verification::check::{Answer, Choice, Model, Options, Verdict, check};
 use cotama_verification::engines::{Budget, Engine, Extent, Found, Known, Reason, Task};
-use cotama_verification::explicit::{Explicit, Limit, Limits};
 use cotama_verification::property;
 use cotama_verification::pt::Pt;
 use std::time::{Duration, Instant};
@@ -43,7 +43,7 @@ fn questions_to_a_ring_of_a_thousand_places_end_in_time() {
         // Some milliseconds more, on a machine that has nothing else to do.
         assert!(begun.elapsed() < Duration::from_secs(5), "{text}: {:?}", begun.elapsed());
     }
-    // It took 18 s when it was optimised.
+    // The optimised program took 18 s.
     let begun = Instant::now();
     assert_eq!(verdict(&ring, "EF deadlock"), Verdict::Holds(false));
     assert!(begun.elapsed() < Duration::from_secs(10), "{:?}", begun.elapsed());
@@ -129,7 +129,7 @@ fn markings_of_a_first_glance_are_counted() {
 }
 
 #[test]
-fn what_is_kept_of_a_question_depends_on_its_budget() {
+fn a_kept_answer_depends_on_the_budget_of_its_question() {
     let pt = moves(4, (0..4).map(|it| (it, (it + 1) % 4)));
     let known = Known::new(&pt);
     let within = |limits| Budget { limits, jobs: 1, evidence: false, progress: &|_| () };

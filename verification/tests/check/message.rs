@@ -1,4 +1,4 @@
-//! What a test says that fails.
+//! The message of a failing test.
 
 use cotama_core::net;
 use cotama_verification::assert_holds;

@@ -10,7 +10,7 @@ mod fair;
 mod laws;
 mod limits;
 mod message;
-mod mutations;
+pub(crate) mod mutations;
 pub(crate) mod nets;
 mod own;
 mod quick;
@@ -31,7 +31,7 @@ fn folder(what: &str) -> Option<PathBuf> {
 }
 
 /// A question named by its text.
-fn named(question: Question, pt: &Pt) -> Property {
+pub(crate) fn named(question: Question, pt: &Pt) -> Property {
     let name = question.display(pt).to_string();
     Property { name, question }
 }

@@ -1,15 +1,14 @@
 //! Certificates with something changed: refused, unless what they then claim is so.
 
-use crate::check::nets::markings;
-use crate::properties::oracle;
 use crate::properties::random::Random;
+use crate::special::own::Own;
 use cotama_core::net::{PlaceId, TransitionId};
 use cotama_verification::certificate::{self, Certificate, verify};
 use cotama_verification::property::{Atom, Formula, Linear, Question};
-use cotama_verification::pt::{Bounds, Lists, Pt};
+use cotama_verification::pt::Pt;
 use serde_json::{Value, json};
 
-/// What became of changed certificates.
+/// The outcomes of changed certificates.
 #[derive(Debug, Default)]
 pub(crate) struct Changed {
     pub(crate) refused: usize,
@@ -112,8 +111,10 @@ fn pointers(value: &Value, at: String, found: &mut Vec<String>) {
 
 /// The answer to the question of a certificate, by the book; `None` when that would take long.
 fn truth(certificate: &Certificate) -> Option<bool> {
-    let pt = net(&certificate.net);
-    let all = markings(&pt, 200)?;
+    let net = Own::from(&certificate.net);
+    let pt = net.pt();
+    let space = net.space(&pt, 200)?;
+    let all = &space.markings;
     let place = |it: &String| pt.place(it).unwrap();
     Some(match &certificate.question {
         certificate::Question::Formula(formula) => {
@@ -124,7 +125,7 @@ fn truth(certificate: &Certificate) -> Option<bool> {
             if all.len() << operators.min(20) > 20_000 || formula.needs_run() {
                 return None;
             }
-            oracle::holds(&pt, &formula)
+            space.satisfying(&formula)[0]
         }
         certificate::Question::Bound { places, most } => {
             let sum = |it: &Vec<u32>| {
@@ -133,41 +134,11 @@ fn truth(certificate: &Certificate) -> Option<bool> {
             all.iter().map(sum).max() == Some(*most)
         }
         certificate::Question::Unbounded { .. } => false,
-        certificate::Question::Live => oracle::verdict(&pt, &Question::Liveness)?,
-        certificate::Question::QuasiLive => oracle::verdict(&pt, &Question::QuasiLiveness)?,
-        certificate::Question::Stable => oracle::verdict(&pt, &Question::StableMarking)?,
-        certificate::Question::OneSafe => oracle::verdict(&pt, &Question::OneSafe)?,
+        certificate::Question::Live => space.verdict(&Question::Liveness)?,
+        certificate::Question::QuasiLive => space.verdict(&Question::QuasiLiveness)?,
+        certificate::Question::Stable => space.verdict(&Question::StableMarking)?,
+        certificate::Question::OneSafe => space.verdict(&Question::OneSafe)?,
     })
-}
-
-fn net(net: &certificate::Net) -> Pt {
-    let place = |name: &String| net.places.iter().position(|it| it.0 == *name).unwrap() as u32;
-    let arcs = |list: &[(String, u32)]| {
-        let mut arcs: Vec<_> = list.iter().map(|it| (place(&it.0), it.1)).collect();
-        arcs.sort_unstable();
-        arcs
-    };
-    let needs = Lists::new(net.transitions.iter().map(|it| arcs(&it.take)));
-    let effects = Lists::new(net.transitions.iter().map(|it| {
-        let weight = |list: &[(String, u32)], name: &String| {
-            list.iter().find(|it| it.0 == *name).map_or(0, |it| i64::from(it.1))
-        };
-        let change = |name: &String| weight(&it.give, name) - weight(&it.take, name);
-        let changes = net.places.iter().zip(0..).map(|(at, id)| (id, change(&at.0)));
-        changes.filter(|it| it.1 != 0).collect::<Vec<_>>()
-    }));
-    Pt {
-        name: net.name.clone(),
-        places: net.places.iter().map(|it| it.0.clone()).collect(),
-        transitions: net.transitions.iter().map(|it| it.name.clone()).collect(),
-        initial: net.places.iter().map(|it| it.1).collect(),
-        consumers: needs.reversed(net.places.len()),
-        changers: effects.reversed(net.places.len()),
-        needs,
-        effects,
-        arcs: 0,
-        bounds: Bounds::default(),
-    }
 }
 
 fn formula_of(formula: &certificate::Formula, pt: &Pt) -> Formula {

@@ -29,7 +29,7 @@ impl Engine for Walk {
         let (mut random, mut marking, mut way) = (Random(1), net.pt().initial.clone(), Vec::new());
         for states in 1..=budget.limits.states {
             if goal.holds(marking.as_slice()) {
-                return Finding { found: Found::Way(way), states };
+                return Finding { found: Found::Path(way), states };
             }
             let enabled: Vec<u32> =
                 transitions.clone().filter(|&it| net.pt().enabled(&marking, it)).collect();
@@ -59,7 +59,7 @@ fn a_random_walk_is_asked_beside_the_engines_of_the_checker() {
     };
     assert_eq!(answered("EF deadlock", 10_000), (Verdict::Holds(true), "walk"));
     assert_eq!(answered("AG !deadlock", 10_000), (Verdict::Holds(false), "walk"));
-    // What it does not find is left to others.
+    // Questions that this engine does not decide are left to others.
     assert_eq!(answered("EF deadlock", 2), (Verdict::Holds(true), "stubborn"));
     assert_eq!(answered("EF (eat_1 & eat_2)", 1_000), (Verdict::Holds(false), "structural"));
 }

@@ -12,7 +12,7 @@ use cotama_verification::property::{Formula, Property, Question};
 use cotama_verification::pt::Pt;
 use std::collections::BTreeMap;
 
-/// Of every how many nets certificates are changed.
+/// One of so many nets has its certificates changed.
 const CHANGED: usize = 10;
 
 /// One question of each sort.
@@ -59,7 +59,7 @@ fn run_shows(space: &Space<'_>, property: &Property, answer: &Answer) -> bool {
     {
         let run = answer.run.as_ref().unwrap();
         let formula = formula.simplified();
-        // What is said of what can be said of runs is shown in more ways than one run can tell.
+        // A quantifier over runs inside another one can need more than one run to be shown.
         let quantified = |it: &Formula| matches!(it, Formula::Exists(_) | Formula::All(_));
         let single = match &formula {
             Formula::Exists(path) | Formula::All(path) => !path.any(&quantified),

@@ -83,7 +83,7 @@ fn parts_of_a_class_are_split_too() {
 }
 
 #[test]
-fn what_leads_to_a_class_that_is_split_is_looked_at_again() {
+fn a_predecessor_of_a_split_class_is_examined_again() {
     let gates = |s0: u32, s1: u32, ways: &str| {
         let doors = format!("tr open0 [0,{s0}] s0 -> r0 tr open1 [0,{s1}] s1 -> r1");
         let net = format!("pl a (1) pl s0 (1) pl s1 (1) {doors} {ways}");
@@ -96,7 +96,7 @@ fn what_leads_to_a_class_that_is_split_is_looked_at_again() {
         tr on [3,4] b0 r0?1 -> c  tr out [1,2] b0 -> d",
     );
     assert_holds!(net, "EF (AX (AX r1 & AX r0) & EX (EX deadlock & EX r0))");
-    // What is left of a class may be several parts.
+    // The rest of a class may be several parts.
     let net = gates(
         3,
         4,

@@ -148,19 +148,19 @@ fn plays(net: &TimeNet, answer: &Answer) -> bool {
 }
 
 #[test]
-fn five_hundred_time_nets_are_what_integer_clocks_say() {
+fn five_hundred_time_nets_agree_with_integer_clocks() {
     time_nets_are_what_integer_clocks_say(5, 500);
 }
 
 #[test]
 #[ignore = "seconds: CI runs it"]
-fn two_thousand_time_nets_are_what_integer_clocks_say() {
+fn two_thousand_time_nets_agree_with_integer_clocks() {
     time_nets_are_what_integer_clocks_say(4, 2_000);
 }
 
 fn time_nets_are_what_integer_clocks_say(seed: u64, nets: usize) {
     let mut random = Random(seed);
-    // Of each kind: no or a number, yes or a time, unknown.
+    // Counts by kind: no or a number, yes or a time, unknown.
     let mut counts = BTreeMap::<&str, [usize; 3]>::new();
     let (mut schedules, mut certified, mut compared) = (0, 0, 0);
     while compared < nets {

@@ -22,7 +22,7 @@ pub(super) fn space<'n>(pt: &'n Pt, instants: &Instants) -> Space<'n> {
         tokens.iter().copied().chain(last).collect()
     };
     let markings = instants.states.iter().map(tokens).collect();
-    Space { net: pt, markings, successors: instants.next.clone() }
+    Space::of(pt, markings, instants.next.clone())
 }
 
 /// A small net with its states, of which there are at most so many.
@@ -59,7 +59,8 @@ fn shows(net: &TimeNet, answer: &Answer, path: &Formula) -> bool {
         assert_eq!(markings.pop().as_ref(), Some(&markings[run.stem.len()]));
     }
     let all: Vec<usize> = (0..markings.len()).collect();
-    let space = Space { net: &pt, successors: vec![Vec::new(); markings.len()], markings };
+    let successors = vec![Vec::new(); markings.len()];
+    let space = Space::of(&pt, markings, successors);
     assert!(lasso(&space, &all, run.stem.len(), path), "{run:?} does not show it");
     true
 }
@@ -76,7 +77,8 @@ pub(super) fn answers(net: &TimeNet, questions: &[Question]) -> Vec<Answer> {
     check_all(&model, &properties, &Options { limits, ..Options::default() })
 }
 
-/// That a state is reachable that leads to others in some way, told by so many steps.
+/// Returns the claim that a state is reachable that leads to others in some way, told by so many
+/// steps.
 pub(super) fn reachable(random: &mut Random, pt: &Pt, steps: usize) -> Formula {
     fn leads(random: &mut Random, pt: &Pt, depth: usize) -> Formula {
         if depth == 0 {
@@ -130,7 +132,7 @@ fn is_live(space: &Space<'_>, instants: &Instants) -> bool {
     })
 }
 
-/// That a transition is treated fairly, in the words of the oracle.
+/// Returns the claim that a transition is treated fairly, in the words of the oracle.
 fn fair(pt: &Pt, transition: TransitionId, is_strong: bool) -> Formula {
     let place = PlaceId(pt.places.len() as u32 + transition.0);
     let fires = Formula::Atom(Atom::AtMost(Linear::marked(place)));
@@ -245,19 +247,19 @@ fn compare_linear(seed: u64, nets: usize, assumes: bool) -> [usize; 2] {
 }
 
 #[test]
-fn formulas_of_ctl_are_what_regions_say() {
+fn formulas_of_ctl_agree_with_regions() {
     let hold = compare_branching(71, 400);
     assert!((400..1_200).contains(&hold), "{hold}");
 }
 
 #[test]
-fn formulas_of_ltl_are_what_regions_say_and_their_runs_have_dates() {
+fn formulas_of_ltl_agree_with_regions_and_their_runs_have_dates() {
     let [hold, shown] = compare_linear(72, 100, false);
     assert!(hold > 50 && shown > 15, "{hold} {shown}");
 }
 
 #[test]
-fn formulas_on_fair_runs_are_what_regions_say() {
+fn formulas_on_fair_runs_agree_with_regions() {
     let [hold, shown] = compare_linear(73, 50, true);
     assert!(hold > 25 && shown > 8, "{hold} {shown}");
 }
@@ -291,7 +293,7 @@ fn a_net_without_places_has_one_marking_of_which_formulas_speak() {
 
 #[test]
 #[ignore = "a minute: CI runs it"]
-fn formulas_of_ltl_are_what_regions_say_of_900_nets() {
+fn formulas_of_ltl_agree_with_regions_on_900_nets() {
     let [hold, shown] = compare_linear(72, 600, false);
     assert!((400..1_000).contains(&hold) && shown > 100, "{hold} {shown}");
     let [hold, shown] = compare_linear(73, 300, true);
@@ -300,7 +302,7 @@ fn formulas_of_ltl_are_what_regions_say_of_900_nets() {
 
 #[test]
 #[ignore = "takes minutes"]
-fn twenty_thousand_time_nets_are_what_regions_say() {
+fn twenty_thousand_time_nets_agree_with_regions() {
     compare_branching(81, 8_000);
     compare_linear(82, 8_000, false);
     compare_linear(83, 4_000, true);

@@ -120,7 +120,7 @@ fn compare(pt: &Pt, random: &mut Random, evidence: bool, counts: &mut Counts) {
 }
 
 #[test]
-fn what_is_said_of_twenty_unbounded_nets_is_not_at_odds_with_their_markings() {
+fn verdicts_on_twenty_unbounded_nets_agree_with_their_markings() {
     let (mut random, mut counts, mut compared) = (Random(7), Counts::default(), 0);
     while compared < 20 {
         let pt = nets::any(&mut random);

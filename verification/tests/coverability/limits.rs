@@ -1,4 +1,4 @@
-//! What happens at limits.
+//! Behaviour at limits.
 
 use super::net;
 use cotama_core::net::PlaceId;

@@ -1,19 +1,16 @@
 //! Simple methods to compare with.
 
+use cotama_fuzz::split_mix;
 use cotama_verification::coverability::Tokens;
 use cotama_verification::pt::Pt;
 use std::collections::BTreeSet;
 
-/// Numbers that look random, the same ones for the same seed (S. Vigna's splitmix64).
+/// Numbers that look random, the same ones for the same seed.
 pub(crate) struct Draw(pub(crate) u64);
 
 impl Draw {
     pub(crate) fn below(&mut self, end: u32) -> u32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut it = self.0;
-        it = (it ^ (it >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        it = (it ^ (it >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((it ^ (it >> 31)) % u64::from(end)) as u32
+        (split_mix(&mut self.0) % u64::from(end)) as u32
     }
 
     /// Some places, each once, with weights: mostly 1.

@@ -12,8 +12,8 @@ struct Node {
     is_removed: bool,
 }
 
-/// What A. Finkel, The minimal coverability graph for Petri nets, Advances in Petri Nets 1993,
-/// computes: when a marking is greater than an ancestor, the ancestor takes its place with ω and
+/// The algorithm of A. Finkel, The minimal coverability graph for Petri nets, Advances in Petri
+/// Nets 1993: when a marking is greater than an ancestor, the ancestor takes its place with ω and
 /// loses its subtree; when it is greater than another node, that one goes with its subtree.
 pub(crate) fn pruned(pt: &Pt, last_first: bool) -> Vec<Vec<Tokens>> {
     let start = pt.initial.iter().map(|&it| Tokens::from(it)).collect();
@@ -132,13 +132,13 @@ fn a_loop_found_twice_and_pruned_twice_is_not_lost() {
 }
 
 #[test]
-fn where_the_pruned_tree_is_right_both_agree() {
+fn the_set_equals_the_pruned_tree_if_that_covers_all() {
     let mut same = 0;
     for seed in 0..2_000 {
         let pt = random(seed);
         let mut found = pruned(&pt, seed % 2 == 0);
         if covers_all(&pt, &found) {
-            // It keeps some nodes that are smaller than others.
+            // The algorithm keeps some nodes that are smaller than others.
             let all = found.clone();
             found.retain(|it| all.iter().filter(|other| at_most(it, other)).count() == 1);
             found.sort();

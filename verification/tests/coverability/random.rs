@@ -21,7 +21,7 @@ fn the_set_covers_all_that_is_reachable_and_nothing_else() {
         for one in &markings {
             let greater = markings.iter().filter(|it| one.iter().zip(*it).all(|(a, b)| a <= b));
             assert_eq!(greater.count(), 1, "net {seed}");
-            // It is the limit of what is reachable: five tokens wherever it has ω.
+            // The marking is a limit of reachable ones: five tokens wherever it has ω.
             let target: Vec<(PlaceId, u64)> =
                 (0..).map(PlaceId).zip(one.iter().map(|it| it.finite().unwrap_or(5))).collect();
             let way = set.covers(&target).unwrap();
@@ -76,7 +76,7 @@ fn bounded_nets_have_the_bounds_of_their_markings_and_unbounded_ones_a_pump() {
 }
 
 #[test]
-fn what_is_coverable_agrees_with_the_backward_method() {
+fn coverable_markings_agree_with_the_backward_method() {
     let (mut yes, mut no) = (0, 0);
     for seed in 0..5_100 {
         let pt = random(seed);

@@ -1,6 +1,6 @@
-//! What is printed, of ten small nets.
+//! The printed diagnoses of ten small nets.
 
-use crate::diagnosis::{diagnosis, golden, nets, parse, timed_diagnosis};
+use crate::diagnosis::{diagnosis, golden, nets, parse, timed_diagnosis, words};
 use cotama_core::net::TransitionId;
 use cotama_verification::diagnosis::{Case, Diagnosis, Run, Unused, vacuous};
 use cotama_verification::explicit::{Graph, Limits};
@@ -79,7 +79,7 @@ fn an_alarm_is_never_raised() {
     golden("alarm.txt", &said);
 }
 
-/// What some run fires and marks.
+/// Returns the parts that no run fires or marks.
 fn unused(pt: &Pt) -> Unused<'_> {
     let graph = Graph::new(pt, &Limits::default(), &|_| ()).unwrap();
     let (mut fired, mut marked) = (vec![false; pt.transitions.len()], vec![false; pt.places.len()]);
@@ -101,7 +101,7 @@ fn two_transitions_are_never_used() {
     net.transitions.retain(|it| it.name != "warm_up");
     let pt = Pt::from(&net.view().net());
     golden("unused.txt", &unused(&pt).to_string());
-    golden("unused.html", &unused(&pt).html(Some(&net.view().net())));
+    golden("unused_page.txt", &words(&unused(&pt).html(Some(&net.view().net()))));
     golden("unused.svg", &unused(&pt).svg(Some(&net.view().net())));
     let trains = Pt::from(&nets::trains().view().net());
     assert!(unused(&trains).is_empty());

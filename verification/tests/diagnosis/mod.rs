@@ -1,4 +1,5 @@
-//! What a person sees of a verdict, byte for byte, on small nets; and that what is shown is so.
+//! The diagnosis of a verdict for a person, byte for byte, on small nets; and the truth of its
+//! contents.
 //!
 //! `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test nets diagnosis` writes the expected
 //! files anew.
@@ -23,6 +24,25 @@ use std::path::Path;
 /// Compares with a file of `tests/golden/diagnosis`.
 fn golden(file: &str, text: &str) {
     cotama_golden::compare(Path::new("tests/golden/diagnosis").join(file), text);
+}
+
+/// Returns the words of a page, in its lines: without style, script, pictures and tags.
+fn words(page: &str) -> String {
+    let without = |page: String, element: &str| -> String {
+        let (start, end) = (format!("<{element}"), format!("</{element}>"));
+        let mut parts = page.split(&start);
+        let first = parts.next().unwrap_or_default().to_owned();
+        first + &parts.map(|it| it.split_once(&end).expect(&end).1).collect::<String>()
+    };
+    let page =
+        ["style", "script", "svg"].iter().fold(page.to_owned(), |it, name| without(it, name));
+    let page = page.replace("</td>", " | ").replace("</th>", " | ").replace("</code> <code>", ", ");
+    let text = |line: &str| {
+        let parts = line.split('<').map(|it| it.split_once('>').map_or(it, |it| it.1));
+        parts.collect::<String>().trim().trim_end_matches(" |").to_owned()
+    };
+    let lines = page.lines().map(text).filter(|it| !it.is_empty());
+    lines.flat_map(|it| [it, "\n".to_owned()]).collect()
 }
 
 fn parse(pt: &Pt, text: &str) -> Property {

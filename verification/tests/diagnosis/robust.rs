@@ -1,4 +1,4 @@
-//! What is no run is refused, and no run or net leads to a panic or a wide line.
+//! Sequences that are no runs are refused, and no run or net leads to a panic or a wide line.
 
 use crate::diagnosis::{nets, parse};
 use cotama_core::net::TransitionId;
@@ -7,7 +7,7 @@ use cotama_verification::pt::Pt;
 use cotama_verification::temporal::Rest;
 use cotama_verification::tpn::Schedule;
 
-/// What fires for ever; nothing is a deadlock.
+/// Returns the rest of a run: the cycle fired for ever, or a deadlock.
 fn rest(cycle: Option<Vec<TransitionId>>) -> Rest {
     match cycle {
         None => Rest::Any,
@@ -25,7 +25,7 @@ fn diagnosed(cycle: Option<&[u32]>, stem: &[u32]) -> Result<Diagnosis, NotARun> 
 }
 
 #[test]
-fn what_is_no_run_is_refused_with_its_place() {
+fn a_sequence_that_is_no_run_is_refused_with_its_place() {
     let error = |cycle, stem| diagnosed(cycle, stem).unwrap_err().to_string();
     assert_eq!(error(None, &[0, 3, 3]), "firing 3: `serve` is not enabled there");
     assert_eq!(error(None, &[9]), "firing 1 is of a transition that the net does not have");

@@ -45,7 +45,7 @@ fn a_long_walk_to_a_collision_becomes_the_four_firings_that_matter() {
 }
 
 #[test]
-fn what_is_left_still_meets_the_goal_and_needs_every_firing() {
+fn a_shrunk_run_meets_the_goal_and_needs_every_firing() {
     let mut random = Random(7);
     let mut shorter = 0;
     for net in
@@ -79,7 +79,7 @@ fn what_is_left_still_meets_the_goal_and_needs_every_firing() {
 }
 
 #[test]
-fn what_cannot_be_fired_comes_back_as_it_is() {
+fn a_sequence_that_cannot_fire_comes_back_unchanged() {
     let pt = Pt::from(&nets::trains().view().net());
     let no_run = [TransitionId(1), TransitionId(99)];
     assert_eq!(shrink(&pt, &no_run, |_| false), no_run);

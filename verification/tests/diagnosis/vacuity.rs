@@ -29,7 +29,7 @@ fn an_equation_is_one_part() {
 }
 
 #[test]
-fn what_has_one_part_only_has_no_weaker_question() {
+fn a_property_of_one_part_has_no_stronger_question() {
     assert!(asked("AG driving").is_empty());
     assert!(asked("EF (driving & logged)").is_empty());
 }

@@ -1,4 +1,4 @@
-//! Four small nets, written by hand.
+//! Small nets, written by hand.
 
 use cotama_core::net::owned::{OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Arc, EventId, OutputId, PlaceId, Role};
@@ -166,5 +166,19 @@ pub(crate) fn producer_consumer() -> OwnedNet {
         equals: 2,
     });
     net.0.laws.push(OwnedLaw::Settles);
+    net.0
+}
+
+/// A plain net: no events and no time. From a state one can go two ways, look, and come back.
+pub(crate) fn choice() -> OwnedNet {
+    let mut net = Build(OwnedNet::new("choice", "Two ways, and back."));
+    let idle = net.state("idle", "", 1);
+    let left = net.state("left", "", 0);
+    let right = net.state("right hand", "", 0);
+    net.add(move_("go left", idle, left));
+    net.add(move_("go right", idle, right));
+    net.add(stay("look", idle));
+    net.add(move_("back from left", left, idle));
+    net.add(move_("back", right, idle));
     net.0
 }

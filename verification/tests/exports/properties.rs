@@ -1,4 +1,4 @@
-//! What holds of the exports of every net.
+//! Properties of the exports of every net.
 
 use crate::exports::random::{PLACES, SIGNALS, complemented, machine, net, net_reaching};
 use cotama_core::net::owned::OwnedTransition;
@@ -175,18 +175,18 @@ proptest! {
     }
 }
 
-fn is_enabled(net: &Net<'_>, marking: &[i64], transition: usize) -> bool {
+pub(super) fn is_enabled(net: &Net<'_>, marking: &[i64], transition: usize) -> bool {
     let it = &net.transitions[transition];
     it.take.iter().chain(it.read).all(|arc| marking[arc.place.0 as usize] >= i64::from(arc.weight))
 }
 
-fn fire(net: &Net<'_>, marking: &mut [i64], transition: usize) {
+pub(super) fn fire(net: &Net<'_>, marking: &mut [i64], transition: usize) {
     let it = &net.transitions[transition];
     it.take.iter().for_each(|arc| marking[arc.place.0 as usize] -= i64::from(arc.weight));
     it.give.iter().for_each(|arc| marking[arc.place.0 as usize] += i64::from(arc.weight));
 }
 
-fn list(value: &Value) -> impl Iterator<Item = &Value> + Clone {
+pub(super) fn list(value: &Value) -> impl Iterator<Item = &Value> + Clone {
     value.as_array().unwrap().iter()
 }
 

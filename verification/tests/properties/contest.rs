@@ -164,7 +164,7 @@ fn an_examination_without_a_file_has_a_question() {
 }
 
 #[test]
-fn broken_files_are_refused_with_their_place_and_what_to_do() {
+fn broken_files_are_refused_with_position_and_remedy() {
     let set = |inside: &str| format!("<property-set>\n{inside}\n</property-set>");
     let broken = [
         String::new(),
@@ -180,9 +180,7 @@ fn broken_files_are_refused_with_their_place_and_what_to_do() {
         set("<properties/>"),
         set("<property/>"),
         set("<property><id>one</id></property>"),
-        set("<property><id>one two</id><formula><true/></formula></property>"),
         set("<property><id>one</id><id>two</id></property>"),
-        set(&"<property><id>one</id><formula><true/></formula></property>\n".repeat(2)),
         file(""),
         file("true"),
         file("<true/><true/>"),
@@ -236,6 +234,39 @@ fn broken_files_are_refused_with_their_place_and_what_to_do() {
         mcc::read("file.xml", b"<property-set>\n\xff", &net(), Ids::default()).unwrap_err();
     writeln!(said, "{not_text}").unwrap();
     cotama_golden::compare("tests/golden/properties/files.txt", &said);
+}
+
+#[test]
+fn a_property_is_called_whatever_its_file_calls_it() {
+    let names = |ids: &[&str]| {
+        let property =
+            |id: &&str| format!("<property><id>{id}</id><formula><true/></formula></property>");
+        let all: String = ids.iter().map(property).collect();
+        let all = read(&format!("<property-set>{all}</property-set>")).unwrap();
+        all.into_iter().map(|it| it.name).collect::<Vec<_>>()
+    };
+    assert_eq!(names(&["Query Comment/Name Here"]), ["Query Comment/Name Here"]);
+    assert_eq!(names(&["EF P4=1", "a\tb", "\u{fc}n\u{ef}"]), ["EF P4=1", "a\tb", "\u{fc}n\u{ef}"]);
+    assert_eq!(names(&["one", "one", "two", "one"]), ["one", "one#2", "two", "one#3"]);
+    assert_eq!(names(&["", "x", ""]), ["property-1", "x", "property-3"]);
+    assert_eq!(names(&["a#2", "a", "a"]), ["a#2", "a", "a#3"]);
+    assert_eq!(names(&["&lt;b&gt;"]), ["<b>"]);
+}
+
+#[test]
+fn a_line_of_the_contest_has_one_word_for_the_name() {
+    let line = |name: &str| mcc::answer(name, mcc::Answer::Verdict(true), &["EXPLICIT"]);
+    for (name, word) in [
+        ("a-PT-01-RF-00", "a-PT-01-RF-00"),
+        ("Query Comment/Name Here", r"Query\u{20}Comment/Name\u{20}Here"),
+        ("x TRUE\nFORMULA forged", r"x\u{20}TRUE\u{a}FORMULA\u{20}forged"),
+        ("a\u{a0}b", r"a\u{a0}b"),
+        ("\u{1b}[31m", r"\u{1b}[31m"),
+        ("", r"\u{}"),
+    ] {
+        assert_eq!(line(name), format!("FORMULA {word} TRUE TECHNIQUES EXPLICIT"), "{name:?}");
+        assert_eq!(line(name).lines().count(), 1, "{name:?}");
+    }
 }
 
 #[test]

@@ -3,19 +3,17 @@
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{PlaceId, TransitionId};
-use cotama_verification::property::{
-    Assumptions, Atom, Formula, Kind, Linear, MAX_DEPTH, MAX_TEXT, Question, parse,
-};
+use cotama_verification::property::{Assumptions, Atom, Formula, Kind, Linear, Question, parse};
 use cotama_verification::pt::Pt;
 use std::fmt::Write as _;
 
-const P: PlaceId = PlaceId(0);
+pub(super) const P: PlaceId = PlaceId(0);
 const Q: PlaceId = PlaceId(1);
 const START: TransitionId = TransitionId(0);
 const STOP: TransitionId = TransitionId(1);
 
 /// Places `p`, `q`, `waiting`, `a b` and `E`; transitions `start` and `stop`.
-fn net() -> Pt {
+pub(super) fn net() -> Pt {
     let mut net = OwnedNet::new("net", "");
     for name in ["p", "q", "waiting", "a b", "E"] {
         net.place(OwnedPlace::new(name, 0)).unwrap();
@@ -33,14 +31,14 @@ fn question(text: &str) -> Question {
     }
 }
 
-fn formula(text: &str) -> Formula {
+pub(super) fn formula(text: &str) -> Formula {
     match question(text) {
         Question::Formula(formula) => formula,
         other => panic!("{text}: {other:?}"),
     }
 }
 
-fn marked(place: PlaceId) -> Formula {
+pub(super) fn marked(place: PlaceId) -> Formula {
     Formula::Atom(Atom::AtMost(Linear::marked(place)))
 }
 
@@ -101,13 +99,120 @@ fn operators_bind_as_the_table_says() {
     assert_eq!(formula("p -> q -> p"), formula("p -> (q -> p)"));
     assert_eq!(formula("p -> q"), Formula::Or(vec![not(&p), q.clone()]));
     assert_eq!(formula("p <-> q <-> p"), formula("(p <-> q) <-> p"));
-    assert_eq!(formula("AG p & q"), formula("(AG p) & q"));
+    assert_eq!(formula("AG p & EF q"), formula("(AG p) & (EF q)"));
     assert_eq!(formula("AG p <= 3"), formula("AG (p <= 3)"));
     assert_eq!(formula("AG !p"), formula("A G (!(p))"));
     assert_eq!(formula("E[p U q U p]"), formula("E (p U (q U p))"));
     assert_eq!(formula("A[!p U q <= 1]"), formula("A ((!p) U (q <= 1))"));
     assert_eq!(formula("AF<=2s p"), Formula::All(Formula::Within(2000, p.clone().into()).into()));
     assert_eq!(formula("A (p -> F<=5 ms q)"), formula("A (!p | F<=5ms q)"));
+}
+
+/// A net whose places are called like words of the language, and two that are not.
+fn letters() -> Pt {
+    let mut net = OwnedNet::new("letters", "");
+    for name in ["A", "E", "F", "G", "X", "U", "AF", "EF", "AG", "EG", "AX", "EX", "and", "not"] {
+        let place = net.place(OwnedPlace::new(name, 0)).unwrap();
+        net.transition(OwnedTransition::new(name).take(place, 1)).unwrap();
+    }
+    for name in ["p", "live", "fireable", "bounds", "deadlock", "true"] {
+        net.place(OwnedPlace::new(name, 0)).unwrap();
+    }
+    Pt::from(&net.view().net())
+}
+
+#[test]
+fn a_place_that_is_called_like_a_word_is_read_where_only_a_name_can_be_meant() {
+    let net = letters();
+    let read = |text: &str| parse(text, &net).map(|it| it.question);
+    for (bare, in_quotes) in [
+        ("EF E", "EF \"E\""),
+        ("AG (A -> p)", "AG (\"A\" -> p)"),
+        ("AG !E", "AG !\"E\""),
+        ("AG (A & E | F)", "AG (\"A\" & \"E\" | \"F\")"),
+        ("EF A > 0", "EF \"A\" > 0"),
+        ("EF (A + E + F = G - X)", "EF (\"A\" + \"E\" + \"F\" = \"G\" - \"X\")"),
+        ("EF EF", "EF \"EF\""),
+        ("AF AF", "AF \"AF\""),
+        ("A G G", "A G \"G\""),
+        ("AG EF EG", "AG EF \"EG\""),
+        ("E[A U E]", "E[\"A\" U \"E\"]"),
+        ("E[p U U]", "E[p U \"U\"]"),
+        ("EF U", "EF \"U\""),
+        ("E", "\"E\""),
+        ("AX AX", "AX \"AX\""),
+        ("EF F <= 3", "EF \"F\" <= 3"),
+        ("AF<=3ms F", "AF<=3ms \"F\""),
+        ("EF (and & not)", "EF (\"and\" & \"not\")"),
+        ("EF live", "EF \"live\""),
+        ("EF fireable", "EF \"fireable\""),
+        ("EF fireable(A, EG)", "EF fireable(\"A\", \"EG\")"),
+        ("bounds(A + U + live)", "bounds(\"A\" + \"U\" + \"live\")"),
+        ("bounds > 0", "\"bounds\" > 0"),
+        ("bound(A -> E)", "bound(\"A\" -> \"E\")"),
+        ("AF E assuming weak(G)", "AF \"E\" assuming weak(\"G\")"),
+    ] {
+        assert_eq!(read(bare).unwrap(), read(in_quotes).unwrap(), "{bare}");
+    }
+    // With an operand behind it, it is the word.
+    assert_eq!(read("E (X p)").unwrap(), read("EX p").unwrap());
+    assert_eq!(read("A (F E)").unwrap(), read("AF \"E\"").unwrap());
+    for text in ["EF deadlock", "AG true", "live", "EF E p", "A E", "EF (A E)", "AG (X Y)"] {
+        let Err(error) = read(text) else { continue };
+        let said = error.to_string();
+        let word = "is a word of the language, and a place";
+        assert!(said.contains(word) && said.contains("in quotes"), "{text}: {said}");
+    }
+    for text in ["EF deadlock", "AG true", "live"] {
+        assert!(read(text).is_err(), "{text}");
+    }
+}
+
+#[test]
+fn a_quantifier_shows_how_far_it_reaches_where_it_could_be_meant_otherwise() {
+    let said = |text: &str| {
+        let error = parse(text, &net()).map(|it| format!("{it:?}")).expect_err(text);
+        assert!(error.message.ends_with("can be read in two ways"), "{text}: {error}");
+        error.help.unwrap()
+    };
+    for (text, wide, narrow) in [
+        ("AG p -> q", "AG (p -> q)", "(AG p) -> q"),
+        ("AG p -> AF q", "AG (p -> AF q)", "(AG p) -> AF q"),
+        ("EF p & q", "EF (p & q)", "(EF p) & q"),
+        ("EF p | q", "EF (p | q)", "(EF p) | q"),
+        ("AG p & q -> p", "AG (p & q -> p)", "(AG p) & q -> p"),
+        ("AG p <-> q", "AG (p <-> q)", "(AG p) <-> q"),
+        ("q & AG p -> q", "q & AG (p -> q)", "q & (AG p) -> q"),
+        ("!AG p | q", "!AG (p | q)", "!(AG p) | q"),
+        ("A G p -> q", "A (G p -> q)", "(A G p) -> q"),
+        ("AG (p) -> q", "AG ((p) -> q)", "(AG (p)) -> q"),
+        ("AG (p -> q) & q", "AG ((p -> q) & q)", "(AG (p -> q)) & q"),
+        ("AG p <= 3 -> q", "AG (p <= 3 -> q)", "(AG p <= 3) -> q"),
+        ("EX p and q", "EX (p and q)", "(EX p) and q"),
+        ("E[p U AG q U p]", "E[p U AG (q U p)]", "E[p U (AG q) U p]"),
+    ] {
+        // Only what is in the brackets could be meant otherwise.
+        let [wide, narrow] = [wide, narrow].map(|it| match it.strip_prefix("E[") {
+            Some(inside) => inside.trim_end_matches(']').to_owned(),
+            None => it.to_owned(),
+        });
+        assert_eq!(said(text), format!("write `{wide}`, or `{narrow}`"), "{text}");
+    }
+    // Clear are these: parentheses, or a quantifier in each part, or none in the way.
+    for (text, same) in [
+        ("AG (p -> q)", "A (G (p -> q))"),
+        ("(AG p) -> q", "!(AG p) | q"),
+        ("p -> AG q", "!p | AG q"),
+        ("AG p & EF q & !AG q", "(AG p) & (EF q) & !(AG q)"),
+        ("AG (p) -> AG (q)", "(AG p) -> (AG q)"),
+        ("A (G F p -> G F q)", "A ((G F p) -> (G F q))"),
+        ("AG EF p", "AG (EF p)"),
+        ("E[p U q] & A[q U p]", "(E[p U q]) & (A[q U p])"),
+    ] {
+        assert_eq!(formula(text), formula(same), "{text}");
+        let written = formula(text).display(&net()).to_string();
+        assert_eq!(formula(&written), formula(text), "{written}");
+    }
 }
 
 #[test]
@@ -196,7 +301,7 @@ fn simplified_formulas_are_the_shortest_that_the_rules_find() {
 }
 
 #[test]
-fn broken_texts_are_refused_with_their_place_and_what_to_do() {
+fn broken_texts_are_refused_with_position_and_remedy() {
     let broken = [
         "",
         " \n ",
@@ -250,7 +355,6 @@ fn broken_texts_are_refused_with_their_place_and_what_to_do() {
         "{a {b}",
         "\"a\\b\"",
         "\"\\u{110000}\"",
-        "E",
         "E p",
         "U",
         "p and or",
@@ -259,7 +363,10 @@ fn broken_texts_are_refused_with_their_place_and_what_to_do() {
         "A [p",
         "-p <= 3",
         "\u{202e}p",
-        "bounds(E)",
+        "bounds(F)",
+        "EF E p",
+        "AG p -> q",
+        "AG p & q",
         "EF {}",
         "p <= deadlock",
         "true <= 3",
@@ -285,61 +392,4 @@ fn broken_texts_are_refused_with_their_place_and_what_to_do() {
         .unwrap();
     }
     cotama_golden::compare("tests/golden/properties/errors.txt", &said);
-}
-
-/// What a text of this depth becomes, on a stack of 1 MiB.
-fn nested(text: String) -> Result<usize, String> {
-    let read = move || {
-        let property = parse(&text, &net()).map_err(|error| error.to_string())?;
-        let Question::Formula(formula) = &property.question else { panic!("not a formula") };
-        Ok(formula.simplified().display(&net()).to_string().len()
-            + formula.clone().display(&net()).to_string().len())
-    };
-    std::thread::Builder::new().stack_size(1 << 20).spawn(read).unwrap().join().unwrap()
-}
-
-#[test]
-fn texts_may_be_nested_so_deep_and_no_deeper_on_a_small_stack() {
-    type Text = fn(usize) -> String;
-    // With how many bytes a level takes.
-    let texts: [(Text, usize); 5] = [
-        (|depth| format!("{}p{}", "(".repeat(depth), ")".repeat(depth)), 2),
-        (|depth| format!("{}p", "!".repeat(depth)), 1),
-        (|depth| format!("A {}p", "X ".repeat(depth - 1)), 2),
-        (|depth| format!("{}p", "p -> ".repeat(depth)), 5),
-        (|depth| format!("A[{}p]", "p U ".repeat(depth - 1)), 4),
-    ];
-    for (text, bytes) in texts {
-        assert!(nested(text(MAX_DEPTH)).is_ok());
-        for depth in [MAX_DEPTH + 1, MAX_TEXT / bytes - 16] {
-            let said = nested(text(depth)).unwrap_err();
-            assert!(said.contains("operators are nested more than 128 deep"), "{said}");
-        }
-    }
-    let mixed = |depth: usize| format!("EF {}p{}", "(p & EF ".repeat(depth), ")".repeat(depth));
-    assert!(nested(mixed((MAX_DEPTH - 1) / 2)).is_ok());
-    assert!(nested(mixed(MAX_DEPTH / 2)).is_err());
-}
-
-#[test]
-fn a_text_may_be_long_and_no_longer() {
-    let text = "p & ".repeat(MAX_TEXT / 4 - 1) + "p";
-    assert_eq!(formula(&text).simplified(), marked(P));
-    let error = parse(&"p".repeat(MAX_TEXT + 1), &net()).unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "property:1:1: the text has 1048577 bytes, more than 1048576\n  help: ask for its parts \
-         one by one"
-    );
-}
-
-#[test]
-fn equivalences_may_not_double_a_formula_for_ever() {
-    assert!(parse(&("p <-> ".repeat(12) + "p"), &net()).is_ok());
-    for text in
-        ["p <-> ".repeat(40) + "p", format!("({}p) & ", "p <-> ".repeat(12)).repeat(1_000) + "p"]
-    {
-        let error = parse(&text, &net()).unwrap_err();
-        assert_eq!(error.message, "the formula is too long when its equivalences are written out");
-    }
 }

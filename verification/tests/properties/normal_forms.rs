@@ -69,7 +69,7 @@ fn a_simplified_formula_stays_as_it_is_when_it_is_simplified_again() {
     }
 }
 
-/// Where each node holds, by the book.
+/// Returns the markings in which each node holds, by the book.
 fn evaluated(space: &Space<'_>, ctl: &Ctl) -> Vec<bool> {
     let mut all: Vec<Vec<bool>> = Vec::new();
     for node in ctl.nodes() {

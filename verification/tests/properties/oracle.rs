@@ -20,29 +20,15 @@ pub(crate) fn bound(net: &Pt, places: &[PlaceId]) -> u64 {
 
 /// The answer to a question of yes or no; `None` to any other.
 pub(crate) fn verdict(net: &Pt, question: &Question) -> Option<bool> {
-    let space = Space::new(net);
-    let fires_from = |marking: usize, transition: u32| {
-        let reachable = space.reaching(&|at| net.enabled(&space.markings[at], transition));
-        reachable[marking]
-    };
-    let transitions = 0..net.transitions.len() as u32;
-    let always = |place: usize| space.markings.iter().all(|it| it[place] == net.initial[place]);
-    match question {
-        Question::Formula(formula) => Some(space.satisfying(formula)[0]),
-        Question::Liveness => Some(
-            (0..space.markings.len()).all(|at| transitions.clone().all(|it| fires_from(at, it))),
-        ),
-        Question::QuasiLiveness => Some(transitions.clone().all(|it| fires_from(0, it))),
-        Question::StableMarking => Some((0..net.places.len()).any(always)),
-        Question::OneSafe => Some(space.markings.iter().flatten().all(|&tokens| tokens <= 1)),
-        Question::Bound(_) | Question::Response { .. } | Question::Fair(..) => None,
-    }
+    Space::new(net).verdict(question)
 }
 
-/// All reachable markings, the initial one first, and their successors.
+/// All reachable markings, the initial one first, with the transitions that are enabled in each,
+/// and their successors.
 pub(crate) struct Space<'n> {
     pub(crate) net: &'n Pt,
     pub(crate) markings: Vec<Vec<u32>>,
+    pub(crate) enabled: Vec<Vec<u32>>,
     pub(crate) successors: Vec<Vec<usize>>,
 }
 
@@ -50,11 +36,13 @@ impl<'n> Space<'n> {
     /// The space of a net with at most 100,000 markings.
     pub(crate) fn new(net: &'n Pt) -> Self {
         let (mut markings, mut successors) = (vec![net.initial.clone()], Vec::new());
+        let mut enabled = Vec::new();
         let mut positions = HashMap::from([(net.initial.clone(), 0)]);
         while let Some(marking) = markings.get(successors.len()).cloned() {
-            let enabled = (0..net.transitions.len() as u32).filter(|&it| net.enabled(&marking, it));
-            let next = enabled.map(|it| {
-                let after = net.fire(&marking, it).unwrap();
+            let fires = (0..net.transitions.len() as u32).filter(|&it| net.enabled(&marking, it));
+            enabled.push(fires.collect::<Vec<_>>());
+            let next = enabled[successors.len()].iter().map(|it| {
+                let after = net.fire(&marking, *it).unwrap();
                 *positions.entry(after.clone()).or_insert_with(|| {
                     markings.push(after);
                     markings.len() - 1
@@ -63,7 +51,35 @@ impl<'n> Space<'n> {
             successors.push(next.collect());
             assert!(markings.len() <= 100_000, "the net {} is too large for the oracle", net.name);
         }
-        Self { net, markings, successors }
+        Self { net, markings, enabled, successors }
+    }
+
+    /// Markings that were met elsewhere, with their successors.
+    pub(crate) fn of(net: &'n Pt, markings: Vec<Vec<u32>>, successors: Vec<Vec<usize>>) -> Self {
+        let transitions = || 0..net.transitions.len() as u32;
+        let fires = |at: &Vec<u32>| transitions().filter(|it| net.enabled(at, *it)).collect();
+        let enabled = markings.iter().map(fires).collect();
+        Self { net, markings, enabled, successors }
+    }
+
+    /// The answer to a question of yes or no; `None` to any other.
+    pub(crate) fn verdict(&self, question: &Question) -> Option<bool> {
+        let fires_from = |marking: usize, transition: u32| {
+            self.reaching(&|at| self.enabled[at].contains(&transition))[marking]
+        };
+        let transitions = 0..self.net.transitions.len() as u32;
+        let always =
+            |place: usize| self.markings.iter().all(|it| it[place] == self.net.initial[place]);
+        match question {
+            Question::Formula(formula) => Some(self.satisfying(formula)[0]),
+            Question::Liveness => Some(
+                (0..self.markings.len()).all(|at| transitions.clone().all(|it| fires_from(at, it))),
+            ),
+            Question::QuasiLiveness => Some(transitions.clone().all(|it| fires_from(0, it))),
+            Question::StableMarking => Some((0..self.net.places.len()).any(always)),
+            Question::OneSafe => Some(self.markings.iter().flatten().all(|&tokens| tokens <= 1)),
+            Question::Bound(_) | Question::Response { .. } | Question::Fair(..) => None,
+        }
     }
 
     /// In which markings a formula holds that speaks of no run.
@@ -102,11 +118,11 @@ impl<'n> Space<'n> {
     }
 
     pub(crate) fn atom(&self, atom: &Atom, at: usize) -> bool {
-        let enabled = |transition| self.net.enabled(&self.markings[at], transition);
+        let enabled = |transition: u32| self.enabled[at].contains(&transition);
         match atom {
             Atom::AtMost(linear) => at_most(linear, &self.markings[at]),
             Atom::Fireable(transitions) => transitions.iter().any(|it| enabled(it.0)),
-            Atom::Deadlock => !(0..self.net.transitions.len() as u32).any(enabled),
+            Atom::Deadlock => self.enabled[at].is_empty(),
         }
     }
 
@@ -121,7 +137,7 @@ impl<'n> Space<'n> {
         reaching
     }
 
-    /// What follows a marking on a run; after a deadlock it lasts.
+    /// Returns the successors of a marking on a run; after a deadlock it lasts.
     pub(crate) fn run_successors(&self, at: usize) -> Vec<usize> {
         if self.successors[at].is_empty() { vec![at] } else { self.successors[at].clone() }
     }
@@ -145,7 +161,7 @@ pub(crate) fn at_most(linear: &Linear, marking: &[u32]) -> bool {
 struct Product<'a> {
     /// The temporal parts; a guess has a bit for each.
     temporal: Vec<Formula>,
-    /// Where the parts hold that need no run.
+    /// The markings in which parts hold that need no run.
     state: HashMap<Formula, Vec<bool>>,
     space: &'a Space<'a>,
     successors: Vec<Vec<usize>>,

@@ -4,14 +4,12 @@
 
 use crate::reductions::net::{keep, net, reduced, text};
 use crate::reductions::space::{is_dead, run};
-use cotama_core::net::TransitionId;
-use cotama_verification::pt::Pt;
-use cotama_verification::reductions::Goal::{
-    Bounds, Ctl, Deadlock, Reachability, StutterInvariantLtl,
-};
-use cotama_verification::reductions::{
+use cotama_checker::reductions::Goal::{Bounds, Ctl, Deadlock, Reachability, StutterInvariantLtl};
+use cotama_checker::reductions::{
     Effort, Goal, Keep, LiftError, Limits, Reduced, Rule, Tokens, reduce, reduce_within,
 };
+use cotama_core::net::TransitionId;
+use cotama_verification::pt::Pt;
 
 /// Reduces by one rule and compares the net.
 fn becomes(before: &str, rule: Rule, goal: Goal, visible: &[&str], after: &str) -> (Pt, Reduced) {
@@ -142,7 +140,7 @@ fn a_transition_with_the_effect_of_another_goes() {
 }
 
 #[test]
-fn what_can_be_done_step_by_step_need_not_be_done_at_once() {
+fn a_transition_that_repeats_another_is_removed() {
     let rule = Rule::RepeatedTransition;
     let both = "a:4 b | t: a -> b; u: a*2 -> b*2";
     let (before, after) = becomes(both, rule, Reachability, &["b"], "a:4 b | t: a -> b");
@@ -155,11 +153,11 @@ fn what_can_be_done_step_by_step_need_not_be_done_at_once() {
 }
 
 #[test]
-fn what_cannot_reach_the_visible_is_cut_off() {
+fn parts_that_cannot_reach_the_visible_are_cut_off() {
     let before = "a:1 b c:1 d | t: a -> b; u: b -> a; v: c -> d; w: b c -> d; x: ?a ->";
     let after = "a:1 b c:1 | t: a -> b; u: b -> a; w: b c ->";
     becomes(before, Rule::Slice, Reachability, &["b"], after);
-    // Who only loses tokens that others need does not matter.
+    // A transition that only loses tokens that others need does not matter.
     becomes("a:1 b | t: a -> b; u: a ->", Rule::Slice, Bounds, &["b"], "a:1 b | t: a -> b");
     stays("a:1 b | t: a -> b; u: a ->", Rule::Slice, Reachability, &["a", "b"]);
     stays("a:1 b | t: a -> b; u: a ->", Rule::Slice, Deadlock, &["b"]);
@@ -184,7 +182,7 @@ fn an_end_without_a_cycle_comes_to_rest() {
 }
 
 #[test]
-fn what_needs_nothing_keeps_the_net_from_dying() {
+fn a_transition_without_needs_rules_out_deadlocks() {
     becomes("a:1 b | t: a -> b; u: -> a", Rule::AlwaysEnabled, Deadlock, &[], "a:1 b | u: ->");
     stays("a:1 b | t: a -> b; u: b -> a", Rule::AlwaysEnabled, Deadlock, &[]);
 }
@@ -217,7 +215,7 @@ fn tokens_that_move_freely_on_a_cycle_are_in_one_place() {
 }
 
 #[test]
-fn what_follows_at_once_is_joined_to_what_comes_before() {
+fn post_agglomeration_joins_consumers_to_producers() {
     let rule = Rule::PostAgglomeration;
     let line = "a:1 p b c | h: a -> p; f: p -> b; g: p -> c";
     let (before, after) =
@@ -248,7 +246,7 @@ fn several_tokens_are_taken_one_by_one_and_those_at_the_start_first() {
 }
 
 #[test]
-fn what_nothing_else_wants_waits_until_it_is_needed() {
+fn pre_agglomeration_delays_producers_until_a_token_is_needed() {
     let rule = Rule::PreAgglomeration;
     let joint = "a:1 b:1 p c | h: a -> p; f: b p -> c; g: b -> c; k: c -> a b";
     let (before, after) =
@@ -276,7 +274,7 @@ fn what_nothing_else_wants_waits_until_it_is_needed() {
 }
 
 #[test]
-fn to_be_reached_it_does_not_matter_who_else_wants_it() {
+fn reachability_allows_other_consumers_of_the_needs_of_a_producer() {
     let rule = Rule::FreeAgglomeration;
     let rivals = "a:1 b:1 p c | h: a -> p; f: b p -> c; k: a b -> c";
     let (before, after) =

@@ -1,9 +1,9 @@
 //! Small nets as text: places with their tokens, then transitions, `a:1 b | t: a ?c -> b*2; u: b
 //! ->`.
 
+use cotama_checker::reductions::{Effort, Goal, Keep, Limits, Reduced, Rule, reduce_within};
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_verification::pt::Pt;
-use cotama_verification::reductions::{Effort, Goal, Keep, Limits, Reduced, Rule, reduce_within};
 
 pub(crate) fn net(text: &str) -> Pt {
     let (places, transitions) = text.split_once('|').unwrap_or((text, ""));

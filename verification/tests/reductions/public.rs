@@ -1,10 +1,10 @@
 //! Nets of others; the folder of them is given by the environment variable `COTAMA_MCC_DIR`.
 
 use crate::reductions::space::{Space, is_dead, run};
+use cotama_checker::reductions::{Goal, Keep, reduce};
 use cotama_golden::public_folder;
 use cotama_verification::pnml;
 use cotama_verification::pt::Pt;
-use cotama_verification::reductions::{Goal, Keep, reduce};
 
 /// Markings of a reduced net that are passed through.
 const MARKINGS: usize = 150_000;
@@ -42,7 +42,7 @@ fn public_nets_have_the_known_deadlocks_when_reduced() {
         );
         let dead = space.dead().next();
         if let Some(dead) = dead {
-            let lifted = reduced.trail.lift(&net, &space.way(dead)).unwrap();
+            let lifted = reduced.trail.lift(&net, &space.path(dead)).unwrap();
             assert!(is_dead(&net, &run(&net, &lifted).unwrap()), "{model}");
         }
         if space.complete || dead.is_some() {

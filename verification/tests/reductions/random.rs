@@ -2,10 +2,10 @@
 
 use crate::reductions::net::{reduced, text};
 use crate::reductions::space::{Seen, Space, bisimilar, is_dead, run, same_stutter_runs};
+use cotama_checker::reductions::{Goal, Keep, Reduced, Rule};
 use cotama_core::net::PlaceId;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_verification::pt::Pt;
-use cotama_verification::reductions::{Goal, Keep, Reduced, Rule};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Markings beyond which a net is not passed through.
@@ -155,7 +155,7 @@ impl Sketch {
     }
 }
 
-/// What is seen in each marking of the original net, and in each of the reduced one.
+/// Returns the visible values in each marking of the original net, and in each of the reduced one.
 fn seen(keep: &Keep, reduced: &Reduced, original: &Space, small: &Space) -> [Vec<Seen>; 2] {
     let tokens = |place: &PlaceId, marking: &[u32]| i64::from(marking[place.0 as usize]);
     let told = |place: &PlaceId, marking: &[u32]| {
@@ -199,7 +199,9 @@ fn compare(pt: &Pt, rules: &[Rule], keep: &Keep) -> Option<Result<bool, String>>
     let some = (0..small.markings.len()).step_by(1 + small.markings.len() / 20);
     for at in some.chain(small.dead()) {
         let dead = is_dead(&reduced.net, &small.markings[at]);
-        let Ok(lifted) = reduced.trail.lift(pt, &small.way(at)) else { return wrong("not lifted") };
+        let Ok(lifted) = reduced.trail.lift(pt, &small.path(at)) else {
+            return wrong("not lifted");
+        };
         let Some(marking) = run(pt, &lifted) else { return wrong("not a run") };
         if dead
             && !is_dead(pt, &marking)

@@ -1,4 +1,4 @@
-//! What a small net does, marking by marking.
+//! The behaviour of a small net, marking by marking.
 
 use cotama_core::net::TransitionId;
 use cotama_verification::pt::Pt;
@@ -51,7 +51,7 @@ impl Space {
         all
     }
 
-    pub(crate) fn way(&self, mut to: usize) -> Vec<TransitionId> {
+    pub(crate) fn path(&self, mut to: usize) -> Vec<TransitionId> {
         let mut way = Vec::new();
         while let Some((from, transition)) = self.from[to] {
             way.push(TransitionId(transition));

@@ -18,7 +18,7 @@ pub(crate) struct Asked {
 
 const AUTONOMOUS: &str = "(pf.Optimal | pf.Reduced | pf.Odometric)";
 
-/// What is lost, and where it is used.
+/// Each loss, and the places in which it is used.
 pub(crate) const LOSSES: [(&str, &str); 5] = [
     ("mcl", "pf.Optimal | pf.Reduced"),
     ("sonar", "pf.Optimal | pf.Reduced | pf.Odometric | to.Full"),
@@ -124,7 +124,7 @@ fn ranks(rounds: &Rounds) -> Observer {
 }
 
 impl Asked {
-    /// What it says, and the rounds in which its observers look.
+    /// Returns the formula, and the rounds in which its observers look.
     pub(crate) fn of(&self, system: &System<'_>) -> (Rounds, Pt, Property) {
         let mut rounds = rounds(system).unwrap();
         for &observer in self.observers {
@@ -157,7 +157,7 @@ pub(crate) fn shortest(rounds: &Rounds, pt: &Pt, property: &Property) -> Option<
     let Formula::Globally(always) = &**path else { return None };
     let never = Formula::Not(always.clone());
     let graph = Graph::new(pt, &Limits::default(), &|_| ()).unwrap();
-    let way = rounds.way(&graph, Goal::new(&never)?)?;
+    let way = rounds.path(&graph, Goal::new(&never)?)?;
     let event = |it: Option<(Option<String>, String)>| match it {
         Some((Some(event), _)) => event.trim_start_matches("gom.").to_owned(),
         _ => "idle".to_owned(),
@@ -183,11 +183,11 @@ fn the_decisional_level_has_4166_states_between_rounds() {
     );
 }
 
-/// What watches ask is answered by the graph of the rounds as by a graph of its own: with the same
-/// runs, counts and evidence.
+/// Questions of watches are answered by the graph of the rounds as by a graph of its own: with the
+/// same runs, counts and evidence.
 #[test]
 #[ignore = "seconds: CI runs it"]
-fn one_graph_answers_what_watches_ask() {
+fn one_graph_answers_the_questions_of_watches() {
     let options = Options { evidence: true, ..Options::default() };
     let plain = rounds(&reconstruction::SYSTEM).unwrap().net().unwrap();
     let plain = Model::from(&plain.view().net());

@@ -66,7 +66,7 @@ fn formula(asked: &Asked, pt: &Pt) -> Formula {
     }
 }
 
-/// Its parts: what always holds, as formulas about one marking, and what is left.
+/// Splits a law into parts: those that always hold, as formulas about one marking, and the rest.
 fn split((id, formula): Law, pt: &Pt, always: &mut Vec<Law>, others: &mut Vec<Law>) {
     match &formula {
         Formula::And(parts) => {
@@ -89,7 +89,7 @@ fn split((id, formula): Law, pt: &Pt, always: &mut Vec<Law>, others: &mut Vec<La
     }
 }
 
-/// Of laws about one marking the first one that is broken in the fewest firings.
+/// Returns the law about one marking that is broken in the fewest firings.
 fn nearest(pt: &Pt, laws: &[Law]) -> Option<&'static str> {
     let goal = Formula::Or(laws.iter().map(|it| Formula::Not(it.1.clone().into())).collect());
     match reach(pt, Goal::new(&goal).unwrap(), &Limits::default(), 1, &|_| ()) {

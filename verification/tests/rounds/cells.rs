@@ -1,5 +1,5 @@
-//! What the contextual supervisor of a system decides, cell by cell, beside the function: also in
-//! cells that are reached only when two things are reported in one round.
+//! The decisions of the contextual supervisor of a system, cell by cell, beside the function: also
+//! in cells that are reached only when two things are reported in one round.
 
 use cotama_core::net::{Net, Role};
 use cotama_core::system::System;
@@ -17,7 +17,7 @@ pub(crate) fn differ(system: &System<'_>) -> bool {
     })
 }
 
-/// Those whose places fit together, with the losses that the net reads.
+/// Iterates over the situations whose places fit together, with the losses that the net reads.
 fn situations() -> impl Iterator<Item = Situation> {
     use local::State::{End, Following, HandOver, Idle, Planning, Teleoperated, Teleprogrammed};
     use path_following::State::{Degraded, Odometric, Off, Optimal, Reactive, Reduced};
@@ -84,7 +84,7 @@ const fn emits(decision: Decision) -> Option<&'static str> {
     }
 }
 
-/// What the first transition that is enabled says.
+/// Returns the output of the first transition that is enabled.
 fn decided<'n>(net: &Net<'n>, event: &str, at: Situation) -> Option<&'n str> {
     let tokens = |name: &str| match name {
         "planning" => u32::from(at.local == local::State::Planning),

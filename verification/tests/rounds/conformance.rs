@@ -5,7 +5,7 @@ use crate::shared;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{EventId, Net, OutputId, Place, PlaceId, Role};
 use cotama_core::player::{Firing, Loaded, Outcome, Packed, Player};
-use cotama_core::system::{Clear, Component, Delivery, Link, Of, System, SystemDefect};
+use cotama_core::system::{Clear, Component, Delivery, Link, Of, System, SystemError};
 use cotama_core::units::Millis;
 use cotama_verification::explicit::{Graph, Limits};
 use cotama_verification::flat::{FlatError, Rounds, Size, rounds};
@@ -36,7 +36,7 @@ fn names(system: &System<'_>) -> Vec<(String, Result<Of<PlaceId>, Of<EventId>>)>
     names
 }
 
-/// What players reach; `None` when that is much.
+/// Returns the states that players reach; `None` when they are many.
 fn played(system: &System<'_>) -> Option<(States, Size)> {
     const NOW: Millis = Millis(0);
     let packed = Packed::<8, 0, 64>::of(system).unwrap();
@@ -62,7 +62,7 @@ fn played(system: &System<'_>) -> Option<(States, Size)> {
                 let mut observer = |_: &Firing<'_, _, _>| fired = true;
                 match after.offer_with(NOW, &event, &mut observer) {
                     Outcome::Fired { .. } => {}
-                    // What waited for room in a mailbox that the event empties may fire.
+                    // Events that waited for room in a mailbox that the event empties may fire.
                     Outcome::Ignored { .. } if fired || after.marking() != player.marking() => {}
                     _ => continue,
                 }
@@ -206,7 +206,7 @@ fn compared(systems: usize, shares: bool) -> (usize, usize, usize) {
     let drawn = (0..).map(|seed| (seed, system(&mut Draw(seed), shares)));
     let sound = drawn.filter(|(seed, it)| match it.defect() {
         None => true,
-        Some(SystemDefect::Overfills(_)) => false,
+        Some(SystemError::Overfills(_)) => false,
         Some(other) => panic!("{seed}: {other}"),
     });
     for (seed, system) in sound.take(systems) {

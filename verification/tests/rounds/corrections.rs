@@ -1,5 +1,5 @@
 //! The decisional level with one rule of the papers taken back at a time: a requirement is broken,
-//! and the shortest way there is named, one event from outside a round.
+//! and the shortest path there is named, one event from outside a round.
 
 use crate::breaks::broken;
 use crate::delivery::watched;
@@ -13,7 +13,7 @@ use cotama_verification::flat::rounds;
 use cotama_verification::property::{Formula, Question, parse};
 use cotama_verification::pt::Pt;
 
-/// The events from outside on a shortest way to where a requirement is broken; none if it holds.
+/// The events from outside on a shortest path to where a requirement is broken; none if it holds.
 fn counterexample(system: &System<'_>, id: &str) -> Option<Vec<String>> {
     let asked = REQUIREMENTS.iter().find(|it| it.id == id).unwrap().asked.unwrap();
     let rounds = watched(&rounds(system).unwrap(), asked.watches).unwrap();
@@ -23,7 +23,7 @@ fn counterexample(system: &System<'_>, id: &str) -> Option<Vec<String>> {
     let Formula::Globally(law) = *path else { panic!("{id}") };
     let never = Formula::Not(in_one_marking(&law, &pt).unwrap().into());
     let graph = Graph::new(&pt, &Limits::default(), &|_| ()).unwrap();
-    let way = rounds.way(&graph, Goal::new(&never).unwrap())?;
+    let way = rounds.path(&graph, Goal::new(&never).unwrap())?;
     let event = |it: Option<(Option<String>, String)>| match it {
         Some((Some(event), _)) => event.split('.').next_back().unwrap().to_owned(),
         _ => "idle".to_owned(),
@@ -48,12 +48,12 @@ fn with(
     System { components: components.leak(), ..delivery::SYSTEM }
 }
 
-/// It says nothing.
+/// Returns the system with a transition that emits nothing.
 fn silent(name: &str) -> System<'static> {
     with(name, |_, it| it.emits = &[])
 }
 
-/// It does not look at this flag.
+/// Returns the system with a transition that does not read this flag.
 fn without(name: &str, flag: &str) -> System<'static> {
     with(name, |net, it| {
         let is_it = |arc: &Arc| {
@@ -67,7 +67,7 @@ fn without(name: &str, flag: &str) -> System<'static> {
     })
 }
 
-/// What was changed, the requirement that it breaks, and how.
+/// Checks the counterexample to the requirement that a change breaks.
 fn found(what: &str, system: &System<'_>, id: &str, way: &str) {
     let expected: Vec<_> = way.split(' ').map(str::to_owned).collect();
     assert_eq!(counterexample(system, id), Some(expected), "{what}: {id}");
@@ -83,7 +83,7 @@ fn a_watch_that_is_lost_in_silence_lets_the_operator_drive_blind() {
     found("nobody is told", &mutant, "GM1", "lose_watch idle");
 }
 
-/// It is told, and the operator may drive all the same.
+/// The operator is told, and may drive all the same.
 #[test]
 fn a_start_of_the_operator_that_does_not_ask_for_the_camera_is_found() {
     let mutant = without("ls.l7", "camera");
@@ -91,7 +91,7 @@ fn a_start_of_the_operator_that_does_not_ask_for_the_camera_is_found() {
     found("camera not asked for", &mutant, "OB1", way);
 }
 
-/// It goes from a place to another one.
+/// Returns the system with a transition that goes from a place to another one.
 fn moved(name: &str, from: &str, to: &str) -> System<'static> {
     with(name, |net, it| {
         let arc = |name| {
@@ -150,7 +150,7 @@ fn a_wrong_use_of_the_other_avoidance_is_found() {
     found("odometry in its place", &mutant, "AS3", &way);
 }
 
-/// It says this in place of what it says.
+/// Returns the system with a transition that emits this in place of its outputs.
 fn says(name: &str, output: &str) -> System<'static> {
     with(name, |net, it| {
         let output = net.outputs.iter().position(|it| it.name == output).unwrap();

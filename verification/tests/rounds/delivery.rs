@@ -77,7 +77,7 @@ fn each_file_that_is_said_to_test_a_requirement_names_it() {
         }
     }
     assert_eq!(files, 13);
-    // It is the job of the executive, and the net of the watchdog has no jobs.
+    // The check is the job of the executive, and the net of the watchdog has no jobs.
     assert!(!is_named("WD5", "verification/tests/tpn/watchdog.rs"));
 }
 
@@ -148,7 +148,7 @@ fn model(rounds: &Rounds) -> Model {
     Model::from(&rounds.net().unwrap().view().net())
 }
 
-/// What is known of requirements, one a line.
+/// Returns the known verdicts of requirements, one a line.
 fn all_known(of: impl Iterator<Item = &'static Requirement>, verified: bool) -> String {
     let plain = rounds(&delivery::SYSTEM).unwrap();
     let model = model(&plain);
@@ -168,7 +168,8 @@ const AT_ONCE: usize = 27;
 /// The others of which a certificate is written, all of them with the graph.
 const CERTIFIED: [&str; 5] = ["GS3", "GS6", "LS4", "CS5", "OB1"];
 
-/// Of these the small checker says that it is too much work: a deadlock in each of 339,854 markings.
+/// The requirement that is too much work for the small checker: a deadlock in each of 339,854
+/// markings.
 const TOO_MUCH: &str = "GS6";
 
 /// Whether it takes no memory, and no deadlock, which the small checker writes out as twenty
@@ -190,7 +191,7 @@ fn the_small_checker_is_convinced_of_27_requirements_at_once() {
     let formulas: Vec<_> = formulas.collect();
     assert_eq!((formulas.len(), graph.states()), (AT_ONCE, 339_854));
     let question = Question::Formula(Formula::And(formulas));
-    let certificate = Certificate::of(&pt, "all", question, true, Evidence::graph(&graph));
+    let certificate = Certificate::of(&pt, "all", question, true, Evidence::Graph(graph.states()));
     assert!(verify(&certificate.text()).unwrap().verdict);
 }
 
@@ -212,8 +213,8 @@ fn with_a_graph<'t>(known: impl Iterator<Item = &'t str>) -> Vec<&'t str> {
     lines.filter(|it| it.contains(&"graph")).map(|it| it[0]).collect()
 }
 
-/// What the small checker is asked for by hand, beside what is known today: all that are asked are
-/// quick, or certified, or have more than 500,000 markings.
+/// The certificates that the small checker is asked for by hand, beside those known today: all
+/// other questions are quick, or certified, or have more than 500,000 markings.
 #[test]
 fn the_certificates_for_the_small_checker_are_those_of_the_golden_file() {
     let quick = REQUIREMENTS.iter().filter_map(|it| it.asked).filter(is_quick);
@@ -278,19 +279,19 @@ fn a_refusal_stops_the_mission_after_two_rounds() {
 /// AS2, by loss: localisation, sonars, both avoidances, camera, link, what is vital.
 #[test]
 #[ignore = "a minute: CI runs it"]
-fn what_is_lost_is_used_for_two_rounds_at_most() {
+fn a_lost_part_is_used_for_two_rounds_at_most() {
     assert_eq!(worst("AS2"), [2; 7]);
 }
 
 #[test]
 #[ignore = "seconds each: CI runs it"]
-fn nobody_waits_for_an_operator_who_cannot_be_reached_for_more_than_two_rounds() {
+fn an_operator_out_of_reach_is_waited_for_at_most_two_rounds() {
     assert_eq!(worst("CS5"), [2]);
 }
 
 /// OB1.
 #[test]
-fn nobody_drives_by_a_camera_that_nobody_watches_for_more_than_two_rounds() {
+fn an_unwatched_camera_is_used_for_at_most_two_rounds() {
     assert_eq!(worst("OB1"), [2]);
 }
 

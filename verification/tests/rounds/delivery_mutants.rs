@@ -227,7 +227,7 @@ fn table(mutants: &[&Mutant]) -> String {
     even.into_iter().zip(odd).flat_map(|(even, odd)| [Some(even), odd]).flatten().collect()
 }
 
-/// Of each kind so many that are not harmless, from all nets.
+/// The number of mutants of each kind that are not harmless, from all nets.
 const EACH: usize = 5;
 
 fn selected(all: &[Mutant]) -> Vec<&Mutant> {
@@ -243,12 +243,12 @@ fn selected(all: &[Mutant]) -> Vec<&Mutant> {
     kinds.into_iter().flat_map(of).collect()
 }
 
-/// What became of each mutant, as the long run wrote it.
+/// The outcome of each mutant, as the long run wrote it.
 const TABLE: &str = include_str!("../golden/rounds/mutants.txt");
 
 #[test]
 #[ignore = "minutes: CI runs it"]
-fn mutants_of_each_kind_break_what_the_table_says() {
+fn mutants_of_each_kind_break_the_requirements_of_the_table() {
     let all = mutants(delivery::SYSTEM, SUPERVISORS);
     let made = table(&selected(&all));
     let wrong: Vec<_> = made.lines().filter(|line| !TABLE.lines().any(|it| it == *line)).collect();
@@ -265,7 +265,7 @@ fn every_mutant_breaks_a_requirement_or_is_known_to_be_harmless() {
 
 /// The table takes too long to be made each time: here it is seen to be one of today's nets.
 #[test]
-fn the_table_says_of_every_mutant_what_it_breaks_or_why_it_is_harmless() {
+fn the_table_gives_each_mutant_a_broken_requirement_or_a_reason() {
     let all = mutants(delivery::SYSTEM, SUPERVISORS);
     assert_eq!(TABLE.lines().count(), all.len());
     for (mutant, line) in all.iter().zip(TABLE.lines()) {

@@ -9,8 +9,8 @@ use cotama_verification::property::{Ctl, Formula, Question, parse};
 use cotama_verification::pt::Pt;
 use cotama_verification::temporal::{Fairness, ctl};
 
-/// Where a drive waits for a path, for the goal, or for the operator. What it waits for comes: it
-/// does not stay there for ever.
+/// The places in which a drive waits for a path, for the goal, or for the operator. What it waits
+/// for comes: it does not stay there for ever.
 const WAITS: [&str; 5] =
     ["!ls.Planning", "!ls.Following", "!ls.HandOver", "!ls.Teleprogrammed", "!ls.Teleoperated"];
 

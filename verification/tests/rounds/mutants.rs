@@ -49,7 +49,7 @@ fn unguarded(from: &[&str], guards: &[&str]) -> System<'static> {
     })
 }
 
-/// What is violated, in how many rounds, and what happens in them from outside.
+/// Checks the violated laws, the number of rounds, and the events from outside in them.
 fn found(system: &System<'_>, size: (u64, u64), violated: &[(&str, &str)]) {
     let plain = rounds(system).unwrap();
     let net = plain.net().unwrap();

@@ -117,7 +117,7 @@ impl Maker {
         }
     }
 
-    /// What it does to flags and counters.
+    /// Changes the effects on flags and counters.
     fn does(&mut self, at: u16, number: usize, transition: &'static Transition<'static>) {
         let net = self.net(at);
         let data = |place: PlaceId| net.places[place.0 as usize].role == Role::Data;
@@ -236,7 +236,7 @@ impl Maker {
         format!("{}.{}", it.name, it.net.events[of.id.0 as usize].name)
     }
 
-    /// What is shared is another flag of the same net.
+    /// Shares another flag of the same net.
     fn shared(&mut self, nets: u16) {
         let bindings = self.of.bindings;
         for (position, binding) in

@@ -80,7 +80,7 @@ struct Explored {
     graph: Graph,
     /// Transitions in which nothing comes from outside.
     silence: BTreeSet<TransitionId>,
-    /// What is raised or reported, and not read yet.
+    /// Flags and reports that are raised and not read yet.
     unread: Vec<usize>,
 }
 
@@ -89,7 +89,7 @@ impl Explored {
         self.graph.marking(state)[self.pt.place(name).unwrap().0 as usize] > 0
     }
 
-    /// Where all nets have had their turns, from one round on.
+    /// Returns the state in which all nets have had their turns, from one round on.
     fn to_outside(&self, mut state: u32) -> u32 {
         while !self.marked(state, "turn.outside") {
             state = self.graph.successors(state)[0];
@@ -179,7 +179,7 @@ fn every_fault_in_every_mode_has_its_worst_reaction() {
                 CLASSES[class].0
             );
             let cell = cells.entry((class, mode)).or_default();
-            // What is recorded has been read, and comes to nothing.
+            // A recorded report has been read, and has no consequence.
             let (name, decided, told) = it
                 .decided(after)
                 .map_or(("recorded", 1, 0), |of| (of.2.0, of.0, it.rounds_until(of.1, of.2.2)));

@@ -15,7 +15,7 @@ use cotama_verification::flat::flat;
 use std::collections::HashMap;
 
 net! {
-    /// What may happen next; one of these a round.
+    /// The events that may happen next; one of these a round.
     pub mod environment {
         places {
             /// Anything may happen.

@@ -20,7 +20,7 @@ fn holds(text: &str, pt: &Pt, graph: &Graph) -> bool {
         .verdict
 }
 
-/// Those that do not hold, of what needs no memory.
+/// Returns the requirements that do not hold, of those that need no memory.
 fn broken(requirements: &[Requirement]) -> Vec<&'static str> {
     let (pt, graph) = explored(&rounds(&recovering::SYSTEM).unwrap());
     let asked = requirements.iter().filter_map(|it| Some((it.id, it.asked?)));
@@ -44,16 +44,16 @@ fn there_are_182588_states_between_rounds() {
     );
 }
 
-/// What is required of the shipped level, but that nothing returns.
+/// The requirements of the shipped level hold, except that nothing returns.
 #[test]
 #[ignore = "a minute: CI runs it"]
-fn what_is_required_without_returns_still_is_but_two() {
+fn all_requirements_without_returns_still_hold_but_two() {
     assert_eq!(broken(REQUIREMENTS), REPLACED);
 }
 
 #[test]
 #[ignore = "a minute: CI runs it"]
-fn what_is_required_of_returns_holds() {
+fn the_requirements_of_returns_hold() {
     assert_eq!(broken(RECOVERY_REQUIREMENTS), [] as [&str; 0]);
     for it in REQUIREMENTS.iter().chain(RECOVERY_REQUIREMENTS) {
         assert!(
@@ -89,7 +89,7 @@ fn duties(id: &str) -> Vec<u32> {
 
 #[test]
 #[ignore = "a minute: CI runs it"]
-fn no_duty_takes_longer_where_modules_return() {
+fn no_duty_takes_longer_when_modules_return() {
     assert_eq!(["GS3", "LS3"].map(duties), [[1], [1]]);
 }
 
@@ -103,11 +103,11 @@ fn the_longer_duties_do_not_either() {
 /// RC9: sonars, localisation, the operator's avoidance.
 #[test]
 #[ignore = "a minute: CI runs it"]
-fn what_has_returned_is_used_after_two_rounds() {
+fn a_returned_module_is_used_after_two_rounds() {
     assert_eq!(duties("RC9"), [2, 2, 2]);
 }
 
-/// What an adapter runs, from nothing to all modules.
+/// The configurations that an adapter runs, from nothing to all modules.
 const RANKS: [(&str, &[&str]); 2] = [
     (
         "following",
@@ -116,14 +116,14 @@ const RANKS: [(&str, &[&str]); 2] = [
     ("teleoperation", &["to.Off", "to.Degraded", "to.Full"]),
 ];
 
-/// What waits at the end of a round in which something returned, and then only.
+/// The events that wait at the end of a round in which something returned, and then only.
 const RETURNED: &str =
     "(gom.sonar_sound.waiting | gom.mcl_sound.waiting | gom.avoidance_sound.waiting)";
 
-/// It remembers what runs, and whether something had returned in the round before. It comes to its
-/// largest state when an adapter goes up to which nothing returned two rounds before. As what is
-/// outside does one thing a round, no two of those answer the same return. A stop and a start in
-/// one round have the turn of what is outside between them.
+/// An observer of the running configuration, and whether something had returned in the round
+/// before. It comes to its largest state when an adapter goes up to which nothing returned two
+/// rounds before. As what is outside does one thing a round, no two of those answer the same
+/// return. A stop and a start in one round have the turn of what is outside between them.
 fn rising(rounds: &Rounds, (name, ranks): (&str, &[&str])) -> Observer {
     let state = |rank: usize, returned: usize| (2 * rank + returned) as u32;
     let most = state(ranks.len(), 0);
@@ -174,7 +174,7 @@ fn place(net: &Net<'_>, name: &str) -> PlaceId {
     PlaceId(net.places.iter().position(|it| it.name == name).unwrap() as u32)
 }
 
-/// It does not look at this flag.
+/// Returns the system with a transition that does not read this flag.
 fn without(name: &str, flag: &str) -> System<'static> {
     with(name, |net, it| {
         let flag = place(net, flag);
@@ -185,7 +185,7 @@ fn without(name: &str, flag: &str) -> System<'static> {
     })
 }
 
-/// It comes from or goes to other places.
+/// Returns the system with a transition that leaves or reaches other places.
 fn moved(name: &str, from: &str, to: &str) -> System<'static> {
     let one = |net: &Net<'_>, name| -> &'static [Arc] {
         vec![Arc { place: place(net, name), weight: 1 }].leak()

@@ -57,7 +57,7 @@ fn every_report_is_read_in_the_round_after_it() {
 
 /// AS2: at the ends of so many rounds in a row what is lost is used.
 #[test]
-fn what_is_lost_is_used_for_two_rounds_at_most() {
+fn a_lost_part_is_used_for_two_rounds_at_most() {
     let worst = LOSSES.map(|loss| {
         let mut rounds = rounds(&reconstruction::SYSTEM).unwrap();
         watch_loss(&mut rounds, loss, MANY);
@@ -68,7 +68,7 @@ fn what_is_lost_is_used_for_two_rounds_at_most() {
 
 /// CS5.
 #[test]
-fn nobody_waits_for_an_operator_who_cannot_be_reached_for_more_than_two_rounds() {
+fn an_operator_out_of_reach_is_waited_for_at_most_two_rounds() {
     assert_eq!(lasting(ALONE), 2);
 }
 

@@ -107,7 +107,7 @@ pub(super) fn share(draw: &mut Draw, nets: &mut [OwnedNet; 3], links: &[Link]) -
             let to = from + draw.below(3 - from);
             let mut it = OwnedTransition::new(&format!("u{number}"));
             it = it.take(PlaceId(from), 1).give(PlaceId(to), 1);
-            // What stays where it is uses something up, so that most nets settle.
+            // A transition that stays in its place uses something up, so that most nets settle.
             it = match draw.below(3) {
                 0 if from < to => guest.uses(draw, it),
                 1 if !guest.reads => guest.uses(draw, flag.change(it, false)),

@@ -1,4 +1,4 @@
-//! What holds after the next firing, as a formula about the marking before it.
+//! The condition after the next firing, as a formula about the marking before it.
 
 use crate::delivery::explored;
 use crate::reconstruction::reconstruction;
@@ -31,8 +31,8 @@ pub(crate) fn in_one_marking(formula: &Formula, pt: &Pt) -> Option<Formula> {
     })
 }
 
-/// That it holds after each transition that is enabled: Dijkstra's weakest precondition. A firing
-/// adds the same to a sum of tokens wherever it happens.
+/// Returns the condition that the formula holds after each enabled transition: Dijkstra's weakest
+/// precondition. A firing adds the same to a sum of tokens wherever it happens.
 fn after_each(then: &Formula, pt: &Pt) -> Option<Formula> {
     if !then.is_state() {
         return None;
@@ -66,7 +66,7 @@ fn after_each(then: &Formula, pt: &Pt) -> Option<Formula> {
 }
 
 #[test]
-fn what_holds_after_the_next_firing_is_told_before_it() {
+fn the_condition_after_the_next_firing_is_a_formula_before_it() {
     let (pt, graph) = explored(&rounds(&reconstruction::SYSTEM).unwrap());
     let asked = |formula: Formula| {
         ctl(&graph, &Ctl::new(&formula).unwrap(), &Fairness::default(), u64::MAX, 2)

@@ -1,8 +1,8 @@
 //! Families of nets, with the counts that are known of them.
 
 use super::{net, space};
+use cotama_checker::bounds::bounds;
 use cotama_models::nets::families::{fms, kanban, philosophers, swimming_pool, token_ring};
-use cotama_verification::bounds::bounds;
 use cotama_verification::explicit::{Limit, Limits, StateSpace, statespace};
 use cotama_verification::pt::Pt;
 
@@ -42,7 +42,7 @@ fn the_token_ring_and_the_swimming_pool_have_their_published_counts() {
 }
 
 #[test]
-fn many_threads_count_what_one_counts() {
+fn many_threads_count_the_same_as_one() {
     for net in [kanban(4), philosophers(11), swimming_pool(1)] {
         let pt = Pt::from(&net.unwrap().view().net());
         let one = space(&pt);

@@ -56,11 +56,11 @@ fn philosophers_may_starve() {
     let dead = graph.satisfying(Goal::new(&deadlock).unwrap(), 1);
     let dead: Vec<u32> = (0..243).filter(|it| dead[*it as usize]).collect();
     assert_eq!(dead.len(), 2);
-    assert!(dead.iter().all(|it| graph.successors(*it).is_empty() && graph.way(*it).len() == 5));
+    assert!(dead.iter().all(|it| graph.successors(*it).is_empty() && graph.path(*it).len() == 5));
 }
 
 #[test]
-fn what_only_starts_the_net_is_mortal_and_what_follows_is_live() {
+fn a_starting_transition_is_mortal_and_the_loop_behind_it_live() {
     let start: [&[(u32, u32)]; 3] = [&[(0, 1)], &[], &[(1, 1)]];
     let there: [&[(u32, u32)]; 3] = [&[(1, 1)], &[], &[(2, 1)]];
     let back: [&[(u32, u32)]; 3] = [&[(2, 1)], &[], &[(1, 1)]];
@@ -80,7 +80,7 @@ fn what_only_starts_the_net_is_mortal_and_what_follows_is_live() {
 fn a_chain_of_a_million_markings_has_a_million_components() {
     let graph = graph(&net(&[999_999], &[[&[(0, 1)], &[], &[]]]));
     assert_eq!((graph.states(), graph.components().count), (1_000_000, 1_000_000));
-    assert_eq!(graph.way(999_999).len(), 999_999);
+    assert_eq!(graph.path(999_999).len(), 999_999);
     assert_eq!(graph.liveness().mortal, [TransitionId(0)]);
 }
 

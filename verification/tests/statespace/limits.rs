@@ -1,4 +1,4 @@
-//! Where a search ends before its end, and widths that turn out too small.
+//! Searches that end before their end, and widths that turn out too small.
 
 use super::{at_least, net, space};
 use cotama_core::net::TransitionId;

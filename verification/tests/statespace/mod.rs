@@ -1,4 +1,4 @@
-//! The explicit engine: counts, shortest ways, graphs and liveness of textbook nets, families,
+//! The explicit engine: counts, shortest paths, graphs and liveness of textbook nets, families,
 //! random and public nets.
 
 mod families;

@@ -3,7 +3,7 @@
 use cotama_verification::pt::Pt;
 use std::collections::HashMap;
 
-/// What it found.
+/// The result of the plain search.
 pub(crate) struct Plain {
     /// Markings in the order in which they were met, those of complete levels only.
     pub(crate) markings: Vec<Vec<u32>>,

@@ -2,8 +2,9 @@
 
 use super::plain::plain;
 use super::{at_least, fired, net};
+use cotama_checker::bounds::bounds;
 use cotama_core::net::TransitionId;
-use cotama_verification::bounds::bounds;
+use cotama_fuzz::split_mix;
 use cotama_verification::explicit::{Goal, Graph, Limit, Limits, Reached, reach, statespace};
 use cotama_verification::property::{Atom, Formula};
 use cotama_verification::pt::Pt;
@@ -11,16 +12,12 @@ use cotama_verification::pt::Pt;
 /// The most markings that are passed through.
 const MOST: usize = 600;
 
-/// Numbers that look random, the same ones for the same seed (S. Vigna's splitmix64).
+/// Numbers that look random, the same ones for the same seed.
 struct Draw(u64);
 
 impl Draw {
     fn below(&mut self, end: u32) -> u32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut it = self.0;
-        it = (it ^ (it >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        it = (it ^ (it >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((it ^ (it >> 31)) % u64::from(end)) as u32
+        (split_mix(&mut self.0) % u64::from(end)) as u32
     }
 
     /// Some places, each once, with weights: mostly 1.
@@ -213,7 +210,7 @@ fn graphs_are_those_of_a_plain_search_with_the_same_numbers() {
             assert_eq!(graph.marking(state as u32), expected.markings[state], "seed {seed}");
         }
         let last = graph.states() as u32 - 1;
-        let way = graph.way(last);
+        let way = graph.path(last);
         assert_eq!(way.len() as u64, expected.depths[last as usize], "seed {seed}");
         assert_eq!(fired(&pt, &way), expected.markings[last as usize], "seed {seed}");
         if graph.states() <= 200 {

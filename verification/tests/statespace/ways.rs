@@ -1,4 +1,4 @@
-//! Shortest ways to markings.
+//! Shortest paths to markings.
 
 use super::{at_least, fired, net};
 use cotama_core::net::TransitionId;

@@ -1,9 +1,10 @@
 //! Published nets with published facts: none is contradicted, and most are found.
 
 use super::nets::{enabled, replay};
+use cotama_checker::structural;
+use cotama_checker::structural::{Answer, Limits, Structure};
+use cotama_verification::pnml;
 use cotama_verification::pt::Pt;
-use cotama_verification::structural::{Answer, Limits, Structure};
-use cotama_verification::{pnml, structural};
 use std::path::{Path, PathBuf};
 
 fn folder() -> Option<PathBuf> {

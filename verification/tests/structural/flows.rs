@@ -1,10 +1,10 @@
 //! Invariants and semiflows of random nets, against their definitions.
 
 use super::nets::{any_net, explore};
-use cotama_verification::pt::Pt;
-use cotama_verification::structural::{
+use cotama_checker::structural::{
     place_invariants, place_semiflows, transition_invariants, transition_semiflows,
 };
+use cotama_verification::pt::Pt;
 use proptest::prelude::*;
 
 /// By how much each transition changes each place.

@@ -1,8 +1,8 @@
 //! Nets whose markings nobody could visit one by one.
 
 use super::nets::{kanban, philosophers, replay};
+use cotama_checker::structural::{Answer, Limits, Structure};
 use cotama_core::net::PlaceId;
-use cotama_verification::structural::{Answer, Limits, Structure};
 
 #[test]
 fn a_kanban_system_of_2000_cards_is_bounded_and_never_stops() {

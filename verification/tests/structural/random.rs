@@ -1,11 +1,11 @@
 //! Answers about random nets, against a plain search of their markings.
 
 use super::nets::{any_net, enabled, explore, replay};
+use cotama_checker::structural::certificate::unreachable;
+use cotama_checker::structural::{Answer, Effort, Limits, Structure};
 use cotama_core::net::{PlaceId, TransitionId};
 use cotama_verification::property::Linear;
 use cotama_verification::pt::Pt;
-use cotama_verification::structural::certificate::unreachable;
-use cotama_verification::structural::{Answer, Effort, Limits, Structure};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -35,7 +35,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(2_000))]
 
     #[test]
-    fn what_is_called_unreachable_is_and_what_is_reached_is_there((pt, goal) in with_goal()) {
+    fn a_goal_called_unreachable_is_and_a_reached_marking_meets_it((pt, goal) in with_goal()) {
         let mut structure = Structure::new(&pt, &Limits::default());
         let (markings, _) = explore(&pt, 500);
         let there = |marking: &Vec<u32>| goal.iter().all(|it| holds(it, marking));

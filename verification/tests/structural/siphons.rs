@@ -3,11 +3,11 @@
 
 use super::nets::{any_net, enabled, explore};
 use crate::numbered::{Arcs, net};
-use cotama_core::net::PlaceId;
-use cotama_verification::pt::Pt;
-use cotama_verification::structural::{
+use cotama_checker::structural::{
     commoner, greatest_siphon, greatest_trap, minimal_siphons, never_marked,
 };
+use cotama_core::net::PlaceId;
+use cotama_verification::pt::Pt;
 use proptest::prelude::*;
 
 fn change(pt: &Pt, transition: u32, place: u32) -> i64 {

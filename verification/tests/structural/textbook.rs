@@ -2,15 +2,15 @@
 
 use super::nets::{kanban, philosophers, replay};
 use crate::numbered::net;
-use cotama_core::net::{PlaceId, TransitionId};
-use cotama_verification::property::Linear;
-use cotama_verification::structural::certificate::{
+use cotama_checker::structural::certificate::{
     Bound, DeadTransitions, LinearInvariant, Refutation, Sum, unreachable,
 };
-use cotama_verification::structural::{
+use cotama_checker::structural::{
     Answer, Effort, Limit, Limits, Structure, Unknown, class, commoner, minimal_siphons,
     place_invariants, place_semiflows,
 };
+use cotama_core::net::{PlaceId, TransitionId};
+use cotama_verification::property::Linear;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -122,7 +122,7 @@ fn half_a_token_is_no_token() {
 }
 
 #[test]
-fn what_never_gets_its_tokens_is_dead() {
+fn a_transition_that_never_gets_its_tokens_is_dead() {
     // The key lies behind the door; and two tokens are never in two places that share one.
     let pt = net(
         &[0, 0, 1, 0, 0],
@@ -266,7 +266,7 @@ fn a_transition_that_needs_less_is_not_disabled_with_one_that_needs_more() {
 }
 
 #[test]
-fn what_may_cost_too_little_is_not_known() {
+fn a_budget_too_small_gives_no_verdict() {
     let pt = philosophers(3, true);
     // 1,347 are enough.
     for work in [0, 1_300] {

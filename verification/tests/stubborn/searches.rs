@@ -3,13 +3,13 @@
 use super::{ends_in, fired};
 use crate::properties::oracle::Space;
 use crate::properties::random::{Random, net, state};
+use cotama_checker::stubborn::{deadlock, reach_reduced};
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{PlaceId, TransitionId};
 use cotama_models::nets::families::{kanban, philosophers};
 use cotama_verification::explicit::{Limit, Limits, Reached};
 use cotama_verification::property::{Atom, Formula, Linear};
 use cotama_verification::pt::Pt;
-use cotama_verification::stubborn::{deadlock, reach_reduced};
 
 const DEADLOCK: Formula = Formula::Atom(Atom::Deadlock);
 

@@ -1,6 +1,7 @@
 //! The protocol by which a team allocates its tasks: the repaired one keeps all requirements, the
 //! thesis's text breaks them as foreseen (P1 to P5), and each seeded defect breaks one.
 
+mod files;
 mod mutants;
 mod supervised;
 mod text;
@@ -99,7 +100,7 @@ fn four_robots_with_two_failures_keep_all_requirements() {
 
 /// The requirements speak of what happens.
 #[test]
-fn what_requirements_begin_with_comes_about() {
+fn the_premises_of_requirements_come_about() {
     let asked = Asked::new(&Team::new(3, 1).without_old_messages());
     for comes in [
         "EF (t1.done & t2.done)",

@@ -37,7 +37,7 @@ const MUTANTS: &[(Defect, &str)] = &[
     (FailureUnsaid, "L1"),
 ];
 
-/// Those that look at messages of older rounds.
+/// The defects that look at messages of older rounds.
 const OLD: &[Defect] =
     &[CountsOldAcks, StartsOnOldAck, FollowsOldAssign, NamesOldBidders, ObeysOldRelease, OpensDone];
 

@@ -51,13 +51,14 @@ fn three_supervised_robots_and_their_team_keep_all_requirements() {
 #[test]
 fn each_tie_is_needed() {
     let team = Team::new(2, 1).without_old_messages();
-    // Who gives a role up without being safe is still on its mission, and may do so for ever.
+    // A robot that gives a role up without being safe is still on its mission, and may be so for
+    // ever.
     let mut net = supervised(&team);
     for it in net.transitions.iter_mut().filter(|it| it.name.contains(".give_up.")) {
         it.read.clear();
     }
     assert_eq!(asked(&team, net).broken(|it| &it.text), ["L1", "L4", "C1"]);
-    // Who is safe and says nothing keeps its role.
+    // A robot that is safe and sends nothing keeps its role.
     let mut net = supervised(&team);
     let silent =
         |it: &OwnedTransition| it.name.contains(".give_up.") || it.name.contains(".crash.");

@@ -10,7 +10,7 @@ use cotama_verification::diagnosis::{Case, Diagnosis};
 use cotama_verification::property;
 use std::path::Path;
 
-/// What the text breaks, on fair runs.
+/// Returns the requirements that the text breaks, on fair runs.
 fn broken(team: Team) -> (u64, Vec<&'static str>) {
     let asked = Asked::new(&team.with(TEXT));
     (asked.space().states, asked.broken(|it| &it.fair))

@@ -4,9 +4,9 @@ use super::linear::crossing;
 use super::{formula, lamp};
 use crate::properties::oracle::Space;
 use crate::properties::random::{Random, branching, net, state};
+use cotama_checker::explicit::{BitSet, Goal, Graph, Limits};
 use cotama_core::net::TransitionId;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_verification::explicit::{BitSet, Goal, Graph, Limits};
 use cotama_verification::property::{Ctl, CtlNode, Formula};
 use cotama_verification::pt::Pt;
 use cotama_verification::temporal::{CtlAnswer, Fairness, Rest, Run};
@@ -267,7 +267,7 @@ fn fairness_takes_memory_that_is_counted() {
     let (states, set) = (1_001, 1_001_u64.div_ceil(64) * 8);
     let next = least("EX used >= 7", &[], &[]);
     assert!((2 * set..4 * set).contains(&next), "{next}");
-    // What a search takes beside its answer is given back.
+    // Memory that a search takes beside its answer is given back.
     let two = least("EG used <= 7 & EG heap >= 7", &[], &[]);
     let three = least("EG used <= 7 & EG heap >= 7 & EG used <= 9", &[], &[]);
     assert!(three - two < 8 * states, "{two} {three}");

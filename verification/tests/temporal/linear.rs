@@ -133,7 +133,7 @@ fn a_loop_is_as_short_as_it_can_be() {
 }
 
 #[test]
-fn what_others_do_is_not_followed_without_need() {
+fn independent_transitions_are_not_followed_without_need() {
     let mut net = OwnedNet::new("lamp and chains", "");
     let [off, on] =
         ["off", "on"].map(|it| net.place(OwnedPlace::new(it, u32::from(it == "off"))).unwrap());
@@ -166,7 +166,7 @@ fn a_firing_that_is_not_seen_does_not_hide_a_seen_one_that_it_competes_with() {
     net.transition(OwnedTransition::new("go right").take(fork, 1).give(right, 1)).unwrap();
     net.transition(OwnedTransition::new("finish").take(idle, 1).give(done, 1)).unwrap();
     let pt = Pt::from(&net.view().net());
-    // Of the two ways only the one to the left is seen, and it can come after `finish`.
+    // Only the left one of the two paths is seen, and it can come after `finish`.
     let Formula::Exists(path) = formula(&pt, "E (F ({done} & !{left} & F {left}))") else {
         panic!("not E")
     };
@@ -175,7 +175,7 @@ fn a_firing_that_is_not_seen_does_not_hide_a_seen_one_that_it_competes_with() {
 }
 
 #[test]
-fn what_is_kept_on_an_inner_cycle_is_kept_on_the_outer_one() {
+fn a_promise_kept_on_an_inner_cycle_is_kept_on_the_outer_one() {
     let mut net = OwnedNet::new("stairs", "Up and down again, once or often.");
     let [low, middle, high] = ["low", "middle", "high"]
         .map(|it| net.place(OwnedPlace::new(it, u32::from(it == "low"))).unwrap());

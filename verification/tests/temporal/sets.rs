@@ -2,9 +2,9 @@
 
 use crate::properties::oracle::Space;
 use crate::properties::random::{Random, branching, net};
+use cotama_checker::temporal::{Labelling, StateSets};
 use cotama_verification::explicit::{Goal, Graph, Limit, Limits};
 use cotama_verification::property::{Ctl, Formula};
-use cotama_verification::temporal::{Labelling, StateSets};
 use std::collections::BTreeSet;
 
 /// Sets as lists in order, and fixed points by the book.

@@ -56,7 +56,7 @@ const FILES: &[(&str, &[u8])] = &[
 ];
 
 #[test]
-fn every_refusal_says_what_is_wrong_where_and_what_to_do() {
+fn every_refusal_gives_cause_position_and_remedy() {
     let mut messages = String::new();
     for (name, bytes) in FILES {
         let error = tina::read(&format!("{name}.net"), bytes).expect_err(name);

@@ -40,7 +40,7 @@ fn intervals_are_milliseconds_and_events_come_at_any_time() {
 }
 
 #[test]
-fn what_fires_by_itself_fires_at_once() {
+fn a_transition_without_event_fires_at_once() {
     let mut door = OwnedNet::new("door", "");
     let shut = door.place(OwnedPlace::new("shut", 1)).unwrap();
     let key = door.place(OwnedPlace::new("key", 2)).unwrap();
@@ -72,7 +72,7 @@ fn a_net_goes_there_and_back() {
 }
 
 #[test]
-fn what_a_net_cannot_say_is_refused() {
+fn intervals_that_a_net_cannot_have_are_refused() {
     let refused = |text: &str| to_net(&net(text)).map(|_| ()).unwrap_err();
     let [first, second] = [TransitionId(0), TransitionId(1)];
     assert_eq!(refused("tr a ]3,8] ->"), NotANet::Open(first));

@@ -17,7 +17,7 @@ pub(crate) struct State {
 /// All states that firings and ticks reach.
 pub(crate) struct States {
     pub(crate) list: Vec<State>,
-    /// Of each state: which transition leads where, and `None` for a tick.
+    /// The edges of each state: a transition with its successor, or `None` for a tick.
     pub(crate) edges: Vec<Vec<(Option<usize>, usize)>>,
 }
 
@@ -29,8 +29,8 @@ pub(crate) fn enabled(transition: &TimeTransition, tokens: &[u32]) -> bool {
         .all(|arc| tokens[arc.place.0 as usize] >= arc.weight)
 }
 
-/// What a firing leaves of the marking, and whether each transition is newly enabled by it, or goes
-/// on.
+/// Returns the marking after a firing, and for each transition whether it is newly enabled by it,
+/// or goes on.
 pub(crate) fn fire(net: &TimeNet, tokens: &[u32], fired: usize) -> (Vec<u32>, Vec<Option<bool>>) {
     let mut between = tokens.to_vec();
     for arc in &net.transitions()[fired].take {
@@ -112,7 +112,7 @@ impl States {
         self.list.iter().map(|it| it.tokens.clone()).collect()
     }
 
-    /// Those of them that enable nothing.
+    /// Returns the markings that enable nothing.
     pub(crate) fn dead(&self) -> BTreeSet<Vec<u32>> {
         self.list
             .iter()

@@ -107,7 +107,7 @@ fn every_response_takes_the_time_that_is_known_of_it() {
 }
 
 #[test]
-fn every_response_of_the_smaller_closed_nets_is_what_integer_clocks_say() {
+fn every_response_of_the_smaller_closed_nets_agrees_with_integer_clocks() {
     let Some(folder) = folder("their known answers") else { return };
     let table = fs::read_to_string(folder.join("facts.tsv")).unwrap();
     let mut compared = 0;

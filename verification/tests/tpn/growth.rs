@@ -45,7 +45,7 @@ fn growth_that_time_forbids_is_no_growth() {
 }
 
 #[test]
-fn what_is_not_proved_is_not_known() {
+fn an_unproved_bound_is_not_known() {
     // Each lap takes one token more than the last: nothing repeats as it was, though tokens grow.
     let laps = "tr go [1,1] p a -> p b*2  tr turn [0,0] p b*1000000 -> q  tr back [1,1] p b -> p \
         a  pl p (1)  pl a (1)";

@@ -146,13 +146,13 @@ fn has_two_times(response: &str) -> bool {
 }
 
 #[test]
-fn a_thousand_closed_nets_are_what_integer_clocks_say() {
+fn a_thousand_closed_nets_agree_with_integer_clocks() {
     closed_nets_are_what_integer_clocks_say(1_000);
 }
 
 #[test]
 #[ignore = "a minute: CI runs it"]
-fn twenty_thousand_closed_nets_are_what_integer_clocks_say() {
+fn twenty_thousand_closed_nets_agree_with_integer_clocks() {
     closed_nets_are_what_integer_clocks_say(20_000);
 }
 
@@ -186,13 +186,13 @@ fn closed_nets_are_what_integer_clocks_say(nets: usize) {
 }
 
 #[test]
-fn two_hundred_open_nets_are_what_clock_regions_say() {
+fn two_hundred_open_nets_agree_with_clock_regions() {
     open_nets_are_what_clock_regions_say(200);
 }
 
 #[test]
 #[ignore = "a minute: CI runs it"]
-fn two_thousand_open_nets_are_what_clock_regions_say() {
+fn two_thousand_open_nets_agree_with_clock_regions() {
     open_nets_are_what_clock_regions_say(2_000);
 }
 

@@ -37,7 +37,7 @@ fn all_that_the_format_has_is_read() {
 }
 
 #[test]
-fn every_bracket_means_what_it_says() {
+fn every_bracket_has_its_usual_meaning() {
     let interval = |text: &str| net(&format!("tr t {text} ->")).transitions()[0].interval;
     assert_eq!(interval("[2,5]"), Interval::closed(2, 5));
     assert_eq!(interval("]2,5]"), Interval { lower_strict: true, ..Interval::closed(2, 5) });
@@ -168,7 +168,7 @@ fn nets() -> impl Strategy<Value = TimeNet> {
 
 proptest! {
     #[test]
-    fn what_is_written_reads_as_the_same_net(net in nets()) {
+    fn a_written_net_reads_as_the_same_net(net in nets()) {
         prop_assert_eq!(tina::read("n.net", tina::write(&net).as_bytes()), Ok(net));
     }
 

@@ -62,7 +62,7 @@ fn between_two_returns_lies_the_hold_at_least() {
 }
 
 #[test]
-fn who_is_sound_without_a_break_returns_after_the_hold_sharp() {
+fn a_module_sound_without_a_break_returns_exactly_after_the_hold() {
     assert_eq!(bound(&flickering(&NET, 0, 1_000, false), "r3", "Available"), "10000..10000");
     assert_eq!(bound(&flickering(&NET, 10_001, 1_000, true), "r3", "Available"), "10000..10000");
 }
@@ -75,7 +75,7 @@ fn a_loose_contact_never_returns() {
 }
 
 #[test]
-fn who_has_returned_so_many_times_is_lost_for_good_the_next_time() {
+fn a_module_returned_so_many_times_is_lost_for_good_the_next_time() {
     let counted = |net: &Net<'_>, most: u32| {
         let promises = [
             format!("AG returns <= {most}"),

@@ -77,7 +77,7 @@ fn later(net: &TimeNet, clocks: &[Option<Clock>]) -> Option<Vec<Option<Clock>>> 
         .then_some(clocks)
 }
 
-/// What can come next, and by which transition.
+/// Returns the next regions, each with the transition that leads there.
 fn successors(net: &TimeNet, (marking, clocks): &Region) -> Vec<(Option<usize>, Region)> {
     let mut next: Vec<_> =
         later(net, clocks).map(|clocks| (None, (marking.clone(), clocks))).into_iter().collect();
@@ -172,7 +172,7 @@ impl Regions<'_> {
         self.list.iter().map(|it| it.0.clone()).collect()
     }
 
-    /// Those of them that enable nothing.
+    /// Returns the markings that enable nothing.
     pub(crate) fn dead(&self) -> BTreeSet<Vec<u32>> {
         self.list
             .iter()

@@ -102,7 +102,7 @@ fn bounds_that_are_not_attained_are_the_bounds() {
 }
 
 #[test]
-fn what_never_fires_has_no_response() {
+fn a_transition_that_never_fires_has_no_response() {
     let net = net("tr go [2,3] p -> a  tr late [4,5] p -> b  pl p (1)");
     assert_eq!(bound(&net, "late", "b"), "never fires");
 }

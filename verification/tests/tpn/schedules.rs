@@ -23,7 +23,7 @@ fn closed_bounds_give_the_earliest_integers() {
 }
 
 #[test]
-fn an_early_firing_waits_for_what_a_later_one_needs() {
+fn an_early_firing_waits_for_the_needs_of_a_later_one() {
     // b's clock starts when a fires, and c is due at 10 sharp: a cannot fire before 6.
     let net = net("tr a [0,w[ p -> q  tr b [0,4] q -> r  tr c [10,10] s -> u  pl p (1)  pl s (1)");
     assert_eq!(dates(&net, "a c b").unwrap(), "6 10 10");
@@ -103,7 +103,7 @@ fn a_way_to_a_deadlock_has_dates() {
 }
 
 #[test]
-fn what_cannot_be_reached_was_looked_for_in_all_classes() {
+fn an_unreachable_marking_was_looked_for_in_all_classes() {
     let net = net("tr send [0,3] client -> waiting request  tr serve [2,4] request -> answer\n\
                    tr receive [0,1] answer waiting -> client  tr give_up [6,9] waiting -> failed  \
                    pl client (1)");

@@ -11,7 +11,7 @@ use cotama_verification::pt::Pt;
 use cotama_verification::tpn::{Interval, TimeNet, TimePlace, TimeTransition, from_net};
 
 net! {
-    /// Its extra time ends with its period, so that no release waits.
+    /// The extra time ends with the period, so that no release waits.
     mod within_period extends watchdog { constants { DEADLINE: 80 } }
 }
 net! {
@@ -89,7 +89,7 @@ fn a_module_that_hangs_is_found_out_at_the_end_of_the_third_extra_time() {
 
 #[test]
 fn a_module_that_is_always_late_is_found_out_as_well() {
-    // Its third late job is a fault when it ends, at the latest when its extra time does.
+    // The third late job is a fault when it ends, at the latest when its extra time does.
     let late = watched(Some(Interval::closed(101, 119)));
     assert_eq!(bound(&late, "w1", "Fault"), "101..357");
     let later = watched(Some(Interval::at_least(101)));

@@ -41,7 +41,7 @@ fn hyperperiod(tasks: &[Task]) -> u64 {
     tasks.iter().fold(1, |all, task| all / gcd(all, task.period.0) * task.period.0)
 }
 
-/// What happens up to an instant when each job of a task needs the same.
+/// Returns the events up to an instant when each job of a task needs the same time.
 fn run<const N: usize>(tasks: [Task; N], needs: [u64; N], until: u64) -> Vec<Happening> {
     let mut executive = Executive::new(tasks).unwrap();
     let needs = needs.map(Micros);

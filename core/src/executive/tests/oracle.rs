@@ -1,7 +1,7 @@
 //! Response times against a plain simulation, one tick after the other, over the whole hyperperiod.
 
 use super::{hyperperiod, run, small};
-use crate::executive::{Overruns, Task, TaskSet, Unschedulable, What};
+use crate::executive::{Overruns, ScheduleError, Task, TaskSet, What};
 use crate::units::Micros;
 use proptest::prelude::*;
 use std::vec;
@@ -58,7 +58,7 @@ proptest! {
         for (at, response) in set.response_times(Overruns::None).enumerate() {
             match (response, worst(&tasks[..=at])) {
                 (Ok(response), Some(worst)) => prop_assert_eq!(response.0, worst),
-                (Err(Unschedulable::Late { task, .. }), None) => {
+                (Err(ScheduleError::Late { task, .. }), None) => {
                     prop_assert_eq!(task, at);
                     break; // a late one is stopped in the executive and goes on in the simulation
                 }
@@ -78,7 +78,7 @@ proptest! {
                 let computed: Vec<u64> = times.map(|it| it.unwrap().0).collect();
                 prop_assert_eq!(computed, worst);
             }
-            Err(Unschedulable::Late { task, .. }) => {
+            Err(ScheduleError::Late { task, .. }) => {
                 prop_assert_eq!(late.iter().min(), Some(&task));
             }
             Err(unknown) => prop_assert!(false, "{unknown}"),
@@ -86,7 +86,7 @@ proptest! {
     }
 
     #[test]
-    fn an_overrun_takes_what_was_computed(tasks in small::<3>(), one in 0..3_usize) {
+    fn an_overrun_takes_the_computed_time(tasks in small::<3>(), one in 0..3_usize) {
         let tasks = tasks.map(|task| Task { patience: u8::MAX, ..task }); // a fault would end it
         let mut needs = tasks.map(|task| task.cost.0);
         needs[one] = u64::MAX;

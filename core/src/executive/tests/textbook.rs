@@ -1,7 +1,7 @@
 //! Response times that are printed in books.
 
 use super::task;
-use crate::executive::{Overruns, Senseless, Task, TaskError, TaskSet, Unschedulable};
+use crate::executive::{Overruns, ScheduleError, Senseless, Task, TaskError, TaskSet};
 use crate::units::Micros;
 use std::string::ToString;
 use std::vec::Vec;
@@ -14,7 +14,7 @@ fn responses(tasks: &[Task]) -> Vec<u64> {
 #[test]
 fn burns_and_wellings_set_a_is_late() {
     let tasks = [task(30, 30, 10, 0), task(40, 40, 10, 0), task(50, 50, 12, 0)];
-    let late = Unschedulable::Late { task: 2, at_least: Micros(52), deadline: Micros(50) };
+    let late = ScheduleError::Late { task: 2, at_least: Micros(52), deadline: Micros(50) };
     assert_eq!(TaskSet::new(&tasks).unwrap().schedulable(Overruns::None), Err(late));
     assert_eq!(late.to_string(), "task 2 can miss its deadline, 50 us: it may take 52 us or more");
 }
@@ -73,7 +73,7 @@ fn a_limit_of_iterations_is_an_answer() {
     let tasks = [task(2, 2, 1, 0), task(1_000, 1_000, 400, 0)];
     let set = TaskSet::new(&tasks).unwrap();
     assert_eq!(set.schedulable(Overruns::None), Ok(()));
-    let unknown = Unschedulable::Unknown { task: 1, at_least: Micros(701) };
+    let unknown = ScheduleError::Unknown { task: 1, at_least: Micros(701) };
     assert_eq!(set.with_iterations(3).schedulable(Overruns::None), Err(unknown));
     assert!(set.with_iterations(3).most_cost(1, Overruns::None).is_err());
     assert_eq!(
@@ -83,7 +83,7 @@ fn a_limit_of_iterations_is_an_answer() {
 }
 
 #[test]
-fn what_does_not_fit_is_late() {
+fn a_response_beyond_64_bits_is_late() {
     let huge = u64::MAX / 2;
     let tasks = [
         task(huge, huge, huge, 0),
@@ -91,7 +91,7 @@ fn what_does_not_fit_is_late() {
         task(u64::MAX, u64::MAX, huge, 0),
     ];
     let late =
-        Unschedulable::Late { task: 1, at_least: Micros(u64::MAX), deadline: Micros(u64::MAX) };
+        ScheduleError::Late { task: 1, at_least: Micros(u64::MAX), deadline: Micros(u64::MAX) };
     assert_eq!(TaskSet::new(&tasks).unwrap().schedulable(Overruns::All), Err(late));
 }
 

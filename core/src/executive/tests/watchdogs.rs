@@ -1,4 +1,4 @@
-//! What the watchdogs promise: faults after so many misses in a row, isolation, and data that shows
+//! Promises of the watchdogs: faults after so many misses in a row, isolation, and data that shows
 //! its age.
 
 use super::{run, task};
@@ -175,10 +175,10 @@ fn a_release_is_refused_while_the_last_job_is_under_way() {
     assert_eq!(whats, expected);
 }
 
-/// Who has used up its time, then deadlines, ends of extra time, releases; of one kind the more
-/// urgent task first.
+/// Order at one instant: exhausted jobs, then deadlines, ends of extra time, releases; of one kind
+/// the more urgent task first.
 #[test]
-fn what_is_due_at_one_instant_happens_by_kind_and_then_by_task() {
+fn events_due_at_one_instant_happen_by_kind_and_then_by_task() {
     let whats = |tasks, needs, until| {
         let all = run(tasks, needs, until).into_iter();
         all.map(|it| (it.at.0, it.task, it.what)).collect::<Vec<_>>()

@@ -2,8 +2,9 @@
 //!
 //! Some points of a class can have another future than others: what time brings first depends on
 //! the clocks. A class *surely* leads to the place when it has a move all of whose outcomes do; it
-//! *perhaps* does when it has a way. Where all classes surely do, the law holds; where one does not
-//! even perhaps, it does not; else classes are cut, where their future parts, and explored again.
+//! *perhaps* does when it has a path. Where all classes surely do, the law holds; where one does
+//! not even perhaps, it does not; else classes are cut, where their future parts, and explored
+//! again.
 
 use super::cuts::Cuts;
 use super::graph::{Graph, Limit, MARKINGS, NONE};

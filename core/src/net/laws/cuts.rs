@@ -1,11 +1,11 @@
-//! Where zones are cut further: only when a law asks for the future of each of their points.
+//! Cuts of zones, made only when a law asks for the future of each of their points.
 
 /// The most values at which the phases of clocks are cut.
 const VALUES: usize = 64;
 /// The most differences of clocks at which zones are cut.
 const PAIRS: usize = 128;
 
-/// Where zones are cut, so that all of a zone has the same future.
+/// The cuts of zones, after which all points of a zone have the same future.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cuts {
     values: [(u16, i64); VALUES],

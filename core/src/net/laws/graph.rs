@@ -6,7 +6,7 @@
 //! is enabled without event and interval, else the first one that is due. All others *rest*. There,
 //! at any instant, each event makes the first transition fire that is enabled and open, or the
 //! places that the net shares with others change; or time passes until an interval begins, ends or
-//! is due. Breadth first, so the way to a class is a shortest one.
+//! is due. Breadth first, so the path to a class is a shortest one.
 
 use super::cuts::Cuts;
 use super::moves::{AT_ONCE, FIRINGS, IN_TIME, Moves, SHARED, TIME, changed};
@@ -22,7 +22,7 @@ const NUMBERS: usize = 32 * MARKINGS;
 /// No class, or no move.
 pub(super) const NONE: u16 = u16::MAX;
 
-/// A way from one class to another.
+/// An edge from one class to another.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Firing {
     pub(super) from: u16,
@@ -31,11 +31,11 @@ pub(super) struct Firing {
     pub(super) by: u16,
     /// The event, or [`AT_ONCE`], [`IN_TIME`], [`SHARED`] or [`TIME`].
     pub(super) kind: u16,
-    /// The first way of the same move from there: to which of them it leads depends on the clocks.
+    /// The first edge of the same move from there: to which of them it leads depends on the clocks.
     pub(super) group: u16,
 }
 
-/// What there is too much of to explore a net while compiling.
+/// A limit that a net passes while it is explored at compile time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limit {
     /// Transitions, places and events.
@@ -58,7 +58,7 @@ pub enum Limit {
 pub struct Graph<const W: usize> {
     pub(super) markings: [[u64; W]; MARKINGS],
     pub(super) count: usize,
-    /// Where the zone of each class lies in the pool.
+    /// Start of the zone of each class in the pool.
     zones: [u32; MARKINGS],
     pool: [i64; NUMBERS],
     pub(super) pooled: usize,
@@ -66,7 +66,7 @@ pub struct Graph<const W: usize> {
     pub(super) same: [u16; MARKINGS],
     /// How each class was first reached: from which, and by which move.
     pub(super) parents: [(u16, u16); MARKINGS],
-    /// Where the moves of each class begin.
+    /// Start of the moves of each class.
     pub(super) starts: [u16; MARKINGS + 1],
     pub(super) firings: [Firing; FIRINGS],
     pub(super) fired: usize,
@@ -110,7 +110,7 @@ impl<const W: usize> Graph<W> {
             overflow: None,
             conflict: None,
         };
-        // It and the moves are local: an interpreter follows each reference anew.
+        // The graph and the moves are local: an interpreter follows each reference anew.
         let Some(moves) = Moves::of(net, code) else {
             graph.limit = Some(Limit::Parts);
             return graph;
@@ -141,7 +141,8 @@ impl<const W: usize> Graph<W> {
             let due = timed && zone.is_due();
             let mut at_once = false;
             let mut at = 0;
-            // What fires at once by itself comes first, and then nothing else happens.
+            // Transitions that fire at once by themselves come first, and then nothing else
+            // happens.
             let mut end = if due { moves.at_once } else { moves.count };
             while at < end {
                 let (by, kind) = (moves.by[at], moves.kind[at]);
@@ -248,7 +249,7 @@ impl<const W: usize> Graph<W> {
         }
     }
 
-    /// Adds a way; whether there was room.
+    /// Adds an edge; whether there was room.
     pub(super) const fn add(&mut self, way: &Move, to: Option<u16>) -> bool {
         let Some(to) = to else { return false };
         if self.fired == FIRINGS {
@@ -324,7 +325,7 @@ impl<const W: usize> Graph<W> {
         self.count
     }
 
-    /// What the clocks can show in a class.
+    /// Returns the zone of a class.
     pub(super) const fn zone(&self, class: usize) -> Zone {
         Zone::read(&self.pool, self.zones[class] as usize)
     }

@@ -11,7 +11,7 @@ use crate::player::code::Code;
 pub struct Violation<'n, const W: usize> {
     /// The law; `None` for what is always checked: bounds, settling and size.
     pub law: Option<Law<'n>>,
-    /// What is wrong.
+    /// The cause of the violation.
     pub culprit: Culprit,
     /// How to get there, with the shortest waits; empty where no place is the culprit's.
     pub way: Way,
@@ -19,7 +19,7 @@ pub struct Violation<'n, const W: usize> {
     pub marking: [u64; W],
 }
 
-/// What is wrong.
+/// The cause of a violation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Culprit {
@@ -29,16 +29,16 @@ pub enum Culprit {
     Bound {
         /// The place.
         place: PlaceId,
-        /// So many.
+        /// Tokens that the place would get.
         tokens: u64,
-        /// By this transition, the last step of the way.
+        /// By this transition, the last step of the path.
         transition: TransitionId,
         /// Whether the same can happen again and again.
         grows: bool,
     },
     /// Transitions fire by themselves for ever without time passing.
     Forever {
-        /// How many steps at the end of the way are repeated.
+        /// How many steps at the end of the path are repeated.
         repeats: usize,
     },
     /// The weighted sum of an invariant is another one.
@@ -171,8 +171,8 @@ impl<const W: usize> Graph<W> {
         false
     }
 
-    /// Where no transition fires any more, as long as the shared places stay as they are: no event
-    /// makes one fire, and no clock runs towards an interval.
+    /// Returns a deadlock: no transition fires any more as long as the shared places stay as they
+    /// are, no event makes one fire, and no clock runs towards an interval.
     const fn stuck(&self, code: &Code<'_, W>, end: Option<PlaceId>) -> Option<(usize, Culprit)> {
         let mut class = 0;
         while class < self.count {
@@ -312,7 +312,7 @@ impl<const W: usize> Graph<W> {
 
 /// Whether an entry is on an event.
 const fn is_on<const W: usize>(code: &Code<'_, W>, entry: u16, event: u16) -> bool {
-    // Where the last row of an event ends the first one of the next begins.
+    // An event's first row begins where the last row of the one before ends.
     let width = 2 * code.states as usize;
     let first = if event == 0 { 0 } else { code.rows[width * event as usize - 1] };
     first <= entry && entry < code.rows[width * (event as usize + 1) - 1]

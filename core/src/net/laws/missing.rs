@@ -8,7 +8,7 @@ use crate::player::code::Code;
 /// Pairs of an event and a place in which it would have to be ignored.
 #[derive(Clone, Copy)]
 pub(super) struct Missing {
-    /// How many.
+    /// Number of pairs.
     pub(super) pairs: usize,
     /// A line for each event, as in `ignore`, and one for each guard.
     pub(super) lines: Text,
@@ -42,8 +42,8 @@ impl Pair {
 const GUARDED: usize = 32;
 
 impl<const W: usize> Graph<W> {
-    /// What a net that breaks `handles(all)` would have to ignore so that it keeps it: few pairs,
-    /// and places, or places and guards, with which the event is never used where there are such.
+    /// Returns the smallest `ignore` list found that makes `handles(all)` hold. Prefers places, or
+    /// places and guards, in which the event is never used.
     pub(super) const fn missing(&self, net: &Net<'_>, code: &Code<'_, W>) -> Missing {
         let mut missing = Missing { pairs: 0, lines: Text::new(), first: None };
         let mut event = 0;
@@ -71,7 +71,7 @@ impl<const W: usize> Graph<W> {
             }
             class += 1;
         }
-        // What is listed already: places, then pairs of a place and a complement.
+        // The entries listed already: places, then pairs of a place and a complement.
         let (mut ignored, mut guarded, mut guards) = ([0; W], [([0; W], [0; W]); GUARDED], 0);
         let (mut listed, mut nowhere) = (false, false);
         // Pairs without a guard share a line, and those with one follow.

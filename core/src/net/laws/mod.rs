@@ -1,6 +1,6 @@
 //! The laws of a small net, checked while compiling: of everything that a
 //! [`Player`](super::Player) can do. One that does not hold is a compile error that names the
-//! culprit and the shortest way there.
+//! culprit and the shortest path there.
 
 mod can;
 mod cuts;
@@ -24,10 +24,10 @@ pub use zone::CLOCKS;
 use super::data::Net;
 use crate::player::code::Code;
 
-/// What is known of a net when it is compiled.
+/// The knowledge of a net at compile time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Known {
-    /// All its laws hold: so many markings, and ways between them, were explored.
+    /// All its laws hold: so many markings, and edges between them, were explored.
     Explored {
         /// Markings that a player reaches, also in passing while it settles.
         markings: usize,
@@ -36,7 +36,7 @@ pub enum Known {
         /// The most transitions that fire at once by themselves one after another.
         settle: u32,
     },
-    /// It says that its laws are left to the checker; it was not explored.
+    /// The net leaves its laws to the checker; it was not explored.
     LeftToChecker,
 }
 
@@ -78,7 +78,7 @@ pub const fn check<const W: usize>(
 /// `code` is the same net, packed.
 ///
 /// # Errors
-/// The first of them that does not hold, with a shortest way there; or that the net is too large.
+/// The first of them that does not hold, with a shortest path there; or that the net is too large.
 pub const fn judge<'n, const W: usize>(
     net: &Net<'n>,
     code: &Code<'_, W>,

@@ -3,7 +3,7 @@
 use crate::net::data::{Net, PlaceId, Role, Transition, TransitionId};
 use crate::player::code::Code;
 
-/// The most moves of a net, and the most ways between its classes.
+/// The most moves of a net, and the most edges between its classes.
 pub(super) const FIRINGS: usize = 16 * 1_024;
 
 /// The kind of transitions without event and interval.
@@ -34,7 +34,7 @@ impl Moves {
             return None;
         }
         let mut moves = Self { by: [0; FIRINGS], kind: [SHARED; FIRINGS], count: 0, at_once: 0 };
-        // Where each transition is among the entries, and then by priority.
+        // The position of each transition among the entries, and then by priority.
         let mut order = [0_u16; FIRINGS];
         let mut at = 0;
         while at < entries {

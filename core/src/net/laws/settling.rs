@@ -98,7 +98,7 @@ impl<const W: usize> Graph<W> {
             place: PlaceId(at as u32),
             tokens: held(code, &after, at),
             transition: id(code, by),
-            // Where more tokens only enable more, and nothing else goes first.
+            // Monotone: more tokens only enable more, and nothing else goes first.
             grows: plain && self.grows(from, &after, code),
         };
         Violation { law: None, culprit, way, marking: self.markings[from] }

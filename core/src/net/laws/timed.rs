@@ -95,7 +95,7 @@ impl<const W: usize> Graph<W> {
         }
     }
 
-    /// Adds a way to the classes of a zone: one on either side of each cut, from this one on.
+    /// Adds edges to the classes of a zone: one on either side of each cut, from this one on.
     const fn enter(
         &mut self,
         cuts: &Cuts,
@@ -144,8 +144,7 @@ impl<const W: usize> Graph<W> {
     }
 }
 
-/// What is left of a marking when a transition, or a change of a shared place, has taken its
-/// tokens.
+/// Returns the marking left when a transition, or a change of a shared place, has taken its tokens.
 pub(super) const fn left<const W: usize>(
     code: &Code<'_, W>,
     marking: &[u64; W],

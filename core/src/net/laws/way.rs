@@ -1,4 +1,4 @@
-//! The way to a class: what happened, and how long it was waited for.
+//! The path to a class: what happened, and how long it was waited for.
 
 use super::graph::{Graph, MARKINGS, NONE};
 use super::moves::{TIME, id, shared};
@@ -8,10 +8,10 @@ use crate::net::data::{Net, PlaceId, TransitionId};
 use crate::net::text::Text;
 use crate::player::code::Code;
 
-/// The most steps of a way: at most one wait for each move.
+/// The most steps of a path: at most one wait for each move.
 const STEPS: usize = 2 * MARKINGS;
 
-/// A step of a way.
+/// A step of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
     /// A transition fires: its event is offered, or it fires by itself.
@@ -24,7 +24,7 @@ pub enum Step {
     Passes(u64),
 }
 
-/// What happened from the start on.
+/// A path: the steps from the start on.
 #[derive(Clone, Copy, Debug)]
 pub struct Way {
     steps: [Step; STEPS],
@@ -50,7 +50,7 @@ impl Way {
     pub(super) const fn tell(&self, net: &Net<'_>, mut text: Text, from: usize, to: usize) -> Text {
         let total = to - from;
         let mut at = from;
-        // A very long way is told by its beginning and its end.
+        // A very long path is told by its beginning and its end.
         while at < to {
             if total > 24 && at - from == 12 {
                 text = text.with("... (").number((total - 24) as u64).with(" more), ");
@@ -88,7 +88,7 @@ const fn said(net: &Net<'_>, text: Text, step: Step) -> Text {
     }
 }
 
-/// What a move by an entry or a change of a shared place is.
+/// Returns the step of a move by an entry or a change of a shared place.
 pub(super) const fn step<const W: usize>(net: &Net<'_>, code: &Code<'_, W>, by: u16) -> Step {
     let (by, entries) = (by as usize, code.entries.len());
     if by < entries {
@@ -100,7 +100,7 @@ pub(super) const fn step<const W: usize>(net: &Net<'_>, code: &Code<'_, W>, by: 
     }
 }
 
-/// The classes on a way, the moves between them, and when each of them happens.
+/// The classes on a path, the moves between them, and when each of them happens.
 struct Path {
     classes: [u16; MARKINGS],
     /// By which each class was reached.
@@ -140,7 +140,7 @@ impl Path {
 }
 
 impl<const W: usize> Graph<W> {
-    /// The way on which a class was first reached, with the shortest waits.
+    /// The path on which a class was first reached, with the shortest waits.
     pub(super) const fn way(&self, net: &Net<'_>, code: &Code<'_, W>, to: usize) -> Way {
         let zero = [0; MARKINGS];
         let mut path =
@@ -182,7 +182,7 @@ impl<const W: usize> Graph<W> {
         way
     }
 
-    /// Delays instants on a way as far as their differences demand.
+    /// Delays instants on a path as far as their differences demand.
     const fn tighten(&self, code: &Code<'_, W>, path: &mut Path) {
         let mut since = [0; CLOCKS];
         let mut zone = self.zone(path.classes[0] as usize);
@@ -257,7 +257,7 @@ impl<const W: usize> Graph<W> {
     }
 }
 
-/// What a field holds, beyond its bound if need be: its guard bit counts.
+/// Returns the tokens in a field, beyond its bound if need be: its guard bit counts.
 pub(super) const fn held<const W: usize>(
     code: &Code<'_, W>,
     marking: &[u64; W],

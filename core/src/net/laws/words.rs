@@ -1,4 +1,4 @@
-//! What a violation is called: the text of a compile error.
+//! The words for a violation: the text of a compile error.
 
 use super::graph::{Graph, Limit, MARKINGS};
 use super::judge::{Culprit, Violation};
@@ -22,7 +22,7 @@ impl<const W: usize> Violation<'_, W> {
         to.write_str(self.text(net, code).as_str())
     }
 
-    /// It in words.
+    /// Returns the violation in words.
     pub(crate) const fn text(&self, net: &Net<'_>, code: &Code<'_, W>) -> Text {
         match self.culprit {
             Culprit::TooLarge(limit) => self.too_large_text(net, limit),
@@ -245,13 +245,13 @@ impl<const W: usize> Violation<'_, W> {
             .with("\n  tell them apart by their guards or the places they need")
     }
 
-    /// Adds where it is so: the way there, and what is marked.
+    /// Adds where it is so: the path there, and what is marked.
     const fn place(&self, net: &Net<'_>, code: &Code<'_, W>, text: Text) -> Text {
         let text = self.after(net, text.with("\n  "), self.way.steps().len());
         marked(net, code, text.with("\n  "), &self.marking)
     }
 
-    /// Adds the first so many steps of the way.
+    /// Adds the first so many steps of the path.
     const fn after(&self, net: &Net<'_>, text: Text, steps: usize) -> Text {
         if steps == 0 {
             return text.with("at the start");

@@ -10,17 +10,18 @@ use crate::player::code::{Clock, Code};
 
 /// The most clocks that run at once.
 pub const CLOCKS: usize = 8;
-/// It has been enabled for so long that it makes no difference any more.
+/// Marks a clock of a transition that has been enabled for so long that it makes no difference any
+/// more.
 pub(super) const CAPPED: i64 = -1;
-/// It fires by itself now.
+/// Marks a clock of a transition that fires by itself now.
 pub(super) const DUE: i64 = -2;
 
 const SIZE: usize = CLOCKS + 1;
 
-/// What clocks can show.
+/// A zone: the values that the clocks can have together.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Zone {
-    /// How many run.
+    /// Number of running clocks.
     pub(super) count: usize,
     /// Which, in the order of [`Code::clocks`].
     pub(super) clocks: [u16; CLOCKS],
@@ -242,7 +243,8 @@ impl Zone {
             }
             a += 1;
         }
-        // Where the other clock starts anew, a cut between them is one of the clock that runs on.
+        // A cut between a clock that starts anew and one that runs on becomes a cut of the latter
+        // alone.
         let mut pair = 0;
         while pair < cuts.pairs().len() {
             let (a, b, most) = cuts.pairs()[pair];
@@ -342,7 +344,7 @@ impl Zone {
         }
     }
 
-    /// What was stored.
+    /// Reads a stored zone.
     pub(super) const fn read(pool: &[i64], from: usize) -> Self {
         let mut zone = Self::EMPTY;
         zone.count = pool[from].cast_unsigned() as usize;

@@ -40,7 +40,7 @@ fn textbook<const PLACES: usize>(
 /// transition of the textbook and moves its tokens, and no others.
 #[kani::proof]
 #[kani::unwind(7)]
-pub fn an_event_fires_what_the_textbook_says() {
+pub fn an_event_fires_the_transition_of_the_textbook() {
     let before: [u8; 4] = any_tokens(&buffer::NET);
     let mut player = at(Checked(buffer::Program), &before);
     let on = few::<2>();

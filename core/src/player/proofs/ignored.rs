@@ -1,5 +1,5 @@
-//! What is ignored leaves no trace, on nets with clocks, and the reason is right. A player is
-//! behind only when too much is due at once: here, nothing is.
+//! Ignored events leave no trace, on nets with clocks, and the reason is right. A player is behind
+//! only when too much is due at once: here, nothing is.
 
 use super::{any_tokens, gate, lamp, marking};
 use crate::net::{EventId, Net, Place, TransitionId};
@@ -28,8 +28,8 @@ fn any_ages<P: Program<W, C>, const W: usize, const C: usize, const T: usize>(
     (Player { program, marking, clocks, slots: [], now: Millis(1) }, ages)
 }
 
-/// What one transition lacks that has its tokens, by the textbook: the right time, or room.
-/// Otherwise it can fire. None where it has not even its tokens.
+/// Returns the reason why a transition that has its tokens cannot fire, by the textbook: the wrong
+/// time, or no room. `None` if it has not its tokens.
 fn lacks(net: &Net<'_>, at: usize, tokens: &[u8], age: u32) -> Option<Option<Why<u32>>> {
     let (it, id) = (&net.transitions[at], at as u32);
     let has = |arc: &crate::net::Arc| u32::from(tokens[arc.place.0 as usize]) >= arc.weight;

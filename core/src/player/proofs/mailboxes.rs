@@ -65,7 +65,7 @@ const SEND: line::Event = line::Event::sender(sender::Event::send);
 const CALL_OFF: line::Event = line::Event::sender(sender::Event::call_off);
 const RELEASE: line::Event = line::Event::receiver(receiver::Event::release);
 
-/// What the observer was told of parts: those mailed, those that came, those that were cleared.
+/// The parts reported to the observer: those mailed, those that came, those that were cleared.
 #[derive(Default)]
 struct Told {
     mailed: u8,
@@ -146,7 +146,7 @@ pub fn nothing_is_lost_or_overtaken() {
 /// An event that is refused leaves everything as it was, and says which mailbox is full.
 #[kani::proof]
 #[kani::unwind(7)]
-pub fn what_is_refused_leaves_no_trace() {
+pub fn a_refused_event_leaves_no_trace() {
     let mut line = Line::new();
     for _ in 0..6 {
         if kani::any() {
@@ -206,7 +206,7 @@ pub fn the_order_of_turns_is_no_matter_without_conflict() {
 /// and gone.
 #[kani::proof]
 #[kani::unwind(7)]
-pub fn a_round_empties_what_waited() {
+pub fn a_round_empties_the_mailboxes_that_waited() {
     let mut line = Line::new();
     for _ in 0..6 {
         match few::<2>() {

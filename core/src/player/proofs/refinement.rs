@@ -9,13 +9,13 @@ use crate::units::Millis;
 
 /// The bounds of both places.
 const BOUNDS: [u32; 2] = [2, 3];
-/// Where settling is cut short.
+/// Limit at which settling is cut short.
 const MOST: u32 = 4;
 
-/// What a transition does to the two places.
+/// The effect of a transition on the two places.
 #[derive(Clone, Copy)]
 struct Rule {
-    /// Its event; by itself without one.
+    /// Event of the transition; `None` if it fires by itself.
     on: Option<u32>,
     take: [u32; 2],
     /// No place is both taken from and read.

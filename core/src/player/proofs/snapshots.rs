@@ -54,11 +54,11 @@ pub fn a_restored_clock_is_the_same() {
     kani::cover!(lamp.clocks[0] == 1, "a clock at 1 ms");
 }
 
-/// What is restored, whatever was stored, keeps the bounds, the laws and the caps of clocks, and is
-/// settled; every other marking is refused.
+/// A restored state keeps the bounds, the laws and the caps of clocks, and is settled, whatever was
+/// stored; every other marking is refused.
 #[kani::proof]
 #[kani::unwind(9)]
-pub fn only_what_can_be_is_restored() {
+pub fn only_possible_states_are_restored() {
     let word = u64::from(few::<7>());
     let clocks = [0; 3].map(|_: u8| u32::from(few::<3>()));
     let program = lamp::Checked::new().program;

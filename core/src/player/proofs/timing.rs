@@ -56,7 +56,7 @@ pub fn the_player_wakes_when_something_fires() {
 /// A transition without event fires at its first instant, also when the time is told late.
 #[kani::proof]
 #[kani::unwind(8)]
-pub fn what_is_due_fires_when_it_was() {
+pub fn a_due_transition_fires_at_its_due_time() {
     let (start, late) = (u64::from(few::<3>()), u64::from(few::<4>()));
     let mut lamp = Lamp::new();
     assert!(lamp.offer(Millis(start), &lamp::Event::press).fired());

@@ -57,7 +57,7 @@ pub const fn check<const W: usize>(
 /// the system rests.
 ///
 /// # Errors
-/// The first event that is neither used nor ignored on purpose, with a shortest way there; or that
+/// The first event that is neither used nor ignored on purpose, with a shortest path there; or that
 /// the system has intervals, does not settle, or is too large.
 pub const fn judge<const W: usize>(
     system: &System<'_>,

@@ -1,11 +1,11 @@
-//! What the [`Player`](crate::player::Player) of a system without intervals does, said once more in
-//! a form that can be evaluated while compiling.
+//! The [`Player`](crate::player::Player) of a system without intervals, once more in a form that
+//! can be evaluated at compile time.
 
 use crate::player::SETTLE;
 use crate::player::code::{Code, Mailbox, NONE, Route, plus};
 use crate::system::data::DEPTH;
 
-/// A state of a system, and what happened on the way to it.
+/// A state of a system, and what happened on the path to it.
 #[derive(Clone, Copy)]
 pub(super) struct Play<const W: usize> {
     pub(super) marking: [u64; W],
@@ -15,7 +15,7 @@ pub(super) struct Play<const W: usize> {
     pub(super) endless: bool,
 }
 
-/// What happens next.
+/// The next step of a cascade.
 #[derive(Clone, Copy)]
 enum Next {
     /// This event is delivered.
@@ -66,7 +66,7 @@ impl<const W: usize> Play<W> {
         while at < code.turns[component + 1] as usize {
             let mailbox = &code.mailboxes[at];
             let mut left = mailbox.waiting.of(&self.marking);
-            // What was read may have emptied it.
+            // An event read before may have emptied it.
             while left > 0 && mailbox.waiting.of(&self.marking) > 0 {
                 let before = *self;
                 self.count(mailbox, false);
@@ -106,7 +106,7 @@ impl<const W: usize> Play<W> {
     /// mailbox on the way is full and nothing has happened.
     const fn whole(&mut self, code: &Code<'_, W>, mut next: Next) -> Option<u32> {
         let before = *self;
-        // Of each net under way: which one, and the routes that are left of what it says.
+        // For each net under way: its number, and the routes of its outputs that are left.
         let mut said = [(0_u16, 0_u16, 0_u16); DEPTH + 1];
         let (mut depth, mut fired, mut settled) = (0, 0, 0);
         loop {
@@ -241,12 +241,12 @@ pub(super) const fn events<const W: usize>(code: &Code<'_, W>) -> usize {
     code.events[code.events.len() - 1] as usize
 }
 
-/// Where the transitions of a kind begin: where the last row of the kind before ends.
+/// Returns the start of the transitions of a kind: the end of the last row of the kind before.
 const fn begins<const W: usize>(code: &Code<'_, W>, kind: usize) -> u16 {
     if kind == 0 { 0 } else { code.rows[2 * code.states as usize * kind - 1] }
 }
 
-/// Whose something is, given the first numbers of all components.
+/// Returns the owner of a number, given the first numbers of all components.
 pub(super) const fn component(firsts: &[u16], number: u16) -> u16 {
     let mut at = 0;
     while at + 2 < firsts.len() && firsts[at + 1] <= number {

@@ -11,7 +11,7 @@ const SLOTS: usize = 4 * STATES;
 /// No state, or a round instead of an event.
 const NONE: u16 = u16::MAX;
 
-/// A step of a way.
+/// A step of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
     /// An event is offered from outside.
@@ -23,7 +23,7 @@ pub enum Step {
 /// Why a system does not handle all events, or cannot be explored while compiling.
 #[derive(Clone, Copy, Debug)]
 pub struct Violation<const W: usize> {
-    /// What is wrong.
+    /// The cause of the violation.
     pub culprit: Culprit,
     /// The marking when the event was delivered.
     pub marking: [u64; W],
@@ -31,17 +31,17 @@ pub struct Violation<const W: usize> {
     count: usize,
 }
 
-/// What is wrong.
+/// The cause of a violation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Culprit {
-    /// In the last step of the way this event is neither used nor ignored on purpose.
+    /// In the last step of the path this event is neither used nor ignored on purpose.
     Unanswered(Of<EventId>),
-    /// In the last step of the way transitions fire for ever without time passing.
+    /// In the last step of the path transitions fire for ever without time passing.
     Forever,
-    /// It has intervals.
+    /// The system has intervals.
     Intervals,
-    /// It has more than [`STATES`] states.
+    /// The system has more than [`STATES`] states.
     TooLarge,
 }
 
@@ -57,7 +57,7 @@ impl<const W: usize> Violation<W> {
 }
 
 /// States in which a system rests, in the order in which they are found: by the length of the
-/// shortest way there.
+/// shortest path there.
 struct States<const W: usize> {
     markings: [[u64; W]; STATES],
     /// From which state each was first reached, and by which event or round.
@@ -98,7 +98,7 @@ impl<const W: usize> States<W> {
         true
     }
 
-    /// What is wrong after a step from a state, where something is.
+    /// Returns the violation after a step from a state, if there is one.
     const fn wrong(
         &self,
         code: &Code<'_, W>,

@@ -1,4 +1,4 @@
-//! What a violation is called: the text of a compile error.
+//! The words for a violation: the text of a compile error.
 
 use super::states::{Culprit, STATES, Step, Violation};
 use crate::net::data::{EventId, Role};
@@ -20,7 +20,7 @@ impl<const W: usize> Violation<W> {
         to.write_str(self.text(system, code).as_str())
     }
 
-    /// It in words.
+    /// Returns the violation in words.
     pub(super) const fn text(&self, system: &System<'_>, code: &Code<'_, W>) -> Text {
         let text = Text::new().with("system ").name(system.name).with(": law `handles(all)` ");
         match self.culprit {
@@ -46,7 +46,7 @@ impl<const W: usize> Violation<W> {
         }
     }
 
-    /// Adds the way.
+    /// Adds the path.
     const fn way(&self, system: &System<'_>, text: Text) -> Text {
         let total = self.steps().len();
         if total == 0 {
@@ -55,7 +55,7 @@ impl<const W: usize> Violation<W> {
         let mut text = text.with("after: ");
         let mut at = 0;
         while at < total {
-            // A very long way is told by its beginning and its end.
+            // A very long path is told by its beginning and its end.
             if total > 24 && at == 12 {
                 text = text.with("... (").number((total - 24) as u64).with(" more), ");
                 at = total - 12;

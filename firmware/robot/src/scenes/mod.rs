@@ -17,9 +17,9 @@ pub use uart::{Channel, FRAMES, Fates, send};
 /// The memory that the scenes need beside the stack.
 #[derive(Clone, Debug)]
 pub struct Memory {
-    /// Of problems.
+    /// Tables of problems.
     pub tables: Tables,
-    /// Of the exact allocator.
+    /// Workspace of the exact allocator.
     pub workspace: Workspace,
 }
 
@@ -66,7 +66,7 @@ impl Scene {
         Self::Uart,
     ];
 
-    /// Its name in print.
+    /// Returns the name in print.
     pub const fn name(self) -> &'static str {
         match self {
             Self::PatrolByRule => "patrol, by the rule",
@@ -81,8 +81,8 @@ impl Scene {
         }
     }
 
-    /// Plays it. `tick` waits for the next millisecond of a timer. What a person wants to know of it
-    /// comes back: two numbers that [`Self::says`] names.
+    /// Plays it. `tick` waits for the next millisecond of a timer. What a person wants to know of
+    /// it comes back: two numbers that [`Self::says`] names.
     pub fn play(
         self,
         memory: &mut Memory,
@@ -103,7 +103,7 @@ impl Scene {
         }
     }
 
-    /// What its two numbers are.
+    /// Returns the meanings of its two numbers.
     pub const fn says(self) -> [&'static str; 2] {
         match self {
             Self::PatrolByRule | Self::PatrolExactly => ["replans", "without plan"],

@@ -58,7 +58,7 @@ fn situation(dice: &mut Dice) -> Patrol {
             available = available.without(kind, 1);
         }
     }
-    // Of 600 s and 8,640 kJ, less where less of the way is behind.
+    // Limits of 600 s and 8,640 kJ, less where less of the path is behind.
     let done = activity.x_start.0;
     let time = done * 600_000 / 187_000 * u64::from(800 + dice.roll(500)) / 1_000;
     let energy = done * 8_640_000 / 187_000 * u64::from(800 + dice.roll(500)) / 1_000;

@@ -121,7 +121,7 @@ impl FlashModel {
 type Record = (u32, [u8; STORED_BYTES]);
 const NO_RECORD: Record = (0, [0; STORED_BYTES]);
 
-/// What survives between two boots: the flash, and what the test remembers of it.
+/// State that survives between two boots: the flash, and the test's notes on it.
 #[derive(Clone, Debug)]
 #[repr(C)]
 pub struct Power {
@@ -129,7 +129,7 @@ pub struct Power {
     dice: Dice,
     /// How often the board has booted.
     pub boots: u32,
-    /// What was being written when the power failed: its number and content.
+    /// Number and content of the record under way when the power failed.
     torn: Record,
     /// The last two records that were written whole, the newest first.
     whole: [Record; 2],

@@ -17,8 +17,8 @@ impl Channel {
         Self(Dice::new(seed))
     }
 
-    /// What comes out of it for a byte: one bit in 1,000 is flipped, one byte in 2,000 is dropped,
-    /// after one in 2,000 comes one from nowhere.
+    /// Returns the bytes that come out for one that goes in: one bit in 1,000 is flipped, one byte
+    /// in 2,000 is dropped, after one in 2,000 comes one from nowhere.
     pub fn carry(&mut self, byte: u8) -> [Option<u8>; 2] {
         let mut noise = 0;
         for bit in 0..8 {
@@ -29,7 +29,7 @@ impl Channel {
     }
 }
 
-/// What became of the frames.
+/// The fates of the frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Fates {
     /// Came as they were sent.
@@ -79,7 +79,7 @@ pub fn send(frames: u32, trace: &mut Trace<'_, impl Sink>) -> Fates {
     fates
 }
 
-/// What the frame of this number says.
+/// Returns the content of the frame of this number.
 fn content(number: u32) -> ([u8; LONGEST], usize) {
     let mut dice = Dice::new(u64::from(number));
     let mut bytes = [0; LONGEST];

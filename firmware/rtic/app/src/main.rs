@@ -32,7 +32,7 @@ mod app {
     systick_monotonic!(Mono, 1_000);
     type Instant = <Mono as Monotonic>::Instant;
 
-    /// What an interrupt says.
+    /// A message of an interrupt.
     type Event = (Millis, link::Event);
     /// As many events can wait as there are interrupts between two turns of the task.
     const WAITING: usize = 4;
@@ -78,7 +78,8 @@ mod app {
                 Ok(Ok((at, event))) => told.offer(player, at, event),
                 Ok(Err(_)) => break,
                 Err(_) => {
-                    // It is time: nothing can be behind, as little is due at once.
+                    // The time has come: the player cannot be behind, as few transitions are due at
+                    // once.
                     let _ = player.advance_with(told.now, &mut told);
                 }
             }

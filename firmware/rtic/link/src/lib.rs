@@ -37,8 +37,8 @@ net! {
     }
 }
 
-/// What the board meets, and when, ms. At 1,200 the radio is heard when the silence is just too
-/// long: what is due fires first.
+/// The events of the board, with their times in ms. At 1,200 the radio is heard when the silence is
+/// just too long: the due transition fires first.
 pub const SCRIPT: [(u32, link::Event); 10] = [
     (100, link::Event::heard),
     (300, link::Event::heard),
@@ -57,7 +57,7 @@ pub const END: u32 = 2_900;
 /// Writes what fires, and when the player was told the time.
 #[derive(Debug)]
 pub struct Told<W> {
-    /// Where it is written.
+    /// The destination of the text.
     pub to: W,
     /// The time of the clock.
     pub now: Millis,

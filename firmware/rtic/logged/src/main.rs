@@ -1,4 +1,4 @@
-//! What a supervisor and a system do, in defmt's logs: names of events, outputs, states and
+//! The actions of a supervisor and a system, in defmt's logs: names of events, outputs, states and
 //! transitions, which stand in the file of this image and not in its flash.
 #![no_std]
 #![no_main]
@@ -67,7 +67,7 @@ fn main() -> ! {
     let advanced = link.advance_with(Millis(END.into()), &mut log);
     defmt::info!("{} at {}, {}", link.state(), link.now(), advanced);
 
-    // What an event carries along is no part of its name.
+    // A payload is no part of an event's name.
     let (mut horn, event) = (horn::Player::new(), horn::Event::sound(440));
     if let Outcome::Fired { transition, .. } = horn.offer(Millis(0), &event) {
         defmt::info!("{} on {}, marked {}", transition, event, horn::Place::Loud);

@@ -13,11 +13,11 @@ use cotama_core::player::Program;
 /// Flags, and what they were taken for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// Its number, from 1 on.
+    /// Number of the finding, from 1 on.
     pub cause: Cause,
-    /// What was raised.
+    /// The flags raised.
     pub flags: Flags,
-    /// What it means.
+    /// The diagnosis of the flags.
     pub diagnosis: Diagnosis,
     /// How it was judged first; none for what no available observer sees.
     pub judged: Option<Judged>,
@@ -38,7 +38,7 @@ pub struct Judged {
 }
 
 impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decider<P, W, C, S> {
-    /// What is newly seen is diagnosed, planned around, and reported.
+    /// Diagnoses new flags, plans around the damage, and reports it.
     pub(super) fn diagnose(
         &mut self,
         raised: Flags,
@@ -82,7 +82,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         broken.fold(Health::SOUND, Health::union).available()
     }
 
-    /// What follows from a diagnosis.
+    /// Draws the consequences of a diagnosis.
     fn conclude(
         &mut self,
         diagnosis: Diagnosis,

@@ -1,4 +1,4 @@
-//! What the supervisors are still to be told, in its order.
+//! The queue of events for the supervisors, in its order.
 
 /// More than there are kinds of failures and returns, so that there is room once each waits once.
 const ROOM: usize = 16;
@@ -48,7 +48,7 @@ impl<K: Copy + PartialEq, C: Copy> Pending<K, C> {
         oldest
     }
 
-    /// What waits, the oldest first.
+    /// Iterates over the queue, the oldest first.
     fn iter(&self) -> impl Iterator<Item = (K, C)> {
         let later = self.waiting.iter().skip(self.first);
         later.chain(self.waiting.iter().take(self.first)).take(self.length).flatten().copied()

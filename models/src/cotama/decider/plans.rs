@@ -14,14 +14,14 @@ pub enum Why {
     Lost {
         /// The modules.
         modules: Modules,
-        /// What was diagnosed to be broken.
+        /// The parts diagnosed to be broken.
         broken: Health,
     },
     /// Modules have returned, because this is sound again.
     Returned {
         /// The modules.
         modules: Modules,
-        /// What was broken.
+        /// The parts that were broken.
         broken: Health,
     },
     /// The margin of this axis is below zero.
@@ -33,12 +33,13 @@ pub enum Why {
 pub struct NoPlanLeft;
 
 /// The plan of the mission, made by an allocator of `cotama-core`: which configuration each drive
-/// uses, within what is left of the limits (Lambert et al. 2024, Section 4).
+/// uses, within what is left of the limits (Lambert et al. 2024, Section 7.2).
 pub trait Plans {
     /// Whether nothing is left to be planned.
     fn is_over(&self) -> bool;
 
-    /// Plans what is left with these modules; whether the plan in force had to be looked at.
+    /// Plans what is left with these modules, unless the plan in force uses nothing that was lost;
+    /// whether it had to be looked at.
     ///
     /// # Errors
     /// When no plan is left that keeps the limits; the plan in force stays.
@@ -119,13 +120,13 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         }
     }
 
-    /// What the plan does without is withdrawn, so that the adapter comes to the configuration that
-    /// is planned.
+    /// Withdraws the modules that the plan leaves unused, so that the adapter comes to the
+    /// configuration that is planned.
     pub(super) fn do_without(&mut self, planned: Option<Configuration>, cause: Cause) {
         self.lose(self.unused(planned), cause);
     }
 
-    /// What a planned configuration does without, beside what is lost anyway.
+    /// Returns the losses that a planned configuration chooses, beside those that exist anyway.
     pub(super) fn unused(&self, planned: Option<Configuration>) -> Losses {
         let lacking = Losses::lacking(self.known.relied_on);
         planned.map_or(Losses::NONE, |it| lacking.beside(it))

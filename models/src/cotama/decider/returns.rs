@@ -1,5 +1,5 @@
-//! What was lost returns, where the mission asks for it: held back until it was sound for long
-//! enough, then planned with and told.
+//! The return of lost modules, where the mission asks for it: held back until they were sound for
+//! long enough, then planned with and reported.
 
 use super::{Cause, Decider, Plans, Why};
 use crate::cotama::decisions::{Loss, Losses};
@@ -33,10 +33,10 @@ impl Returns {
 }
 
 impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decider<P, W, C, S> {
-    /// What is known to be lost is watched; what has been sound for long enough is used again. It
-    /// is sound when it says so and no flag shows any more what it was lost by: else a flag that is
-    /// lowered after its module had settled would never be heard, and one that goes up and down
-    /// would not be held back.
+    /// Watches the modules known to be lost, and uses again those that have been sound for long
+    /// enough. A module is sound when it reports so and no flag of its loss is raised any more:
+    /// else a flag that is lowered after its module had settled would never be heard, and one that
+    /// goes up and down would not be held back.
     pub(super) fn use_what_returns(&mut self, works: Modules, plans: &mut impl Plans) {
         if self.returns.is_none() {
             return;
@@ -47,7 +47,8 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         let mut restored = false;
         for (player, it) in players.iter_mut().zip(Return::ALL) {
             restored |= player.advance(now).fired > 0;
-            // What needs the sonars is lost and returns with them, and has its own returns left.
+            // Modules that need the sonars return with them, and still have their own returns to go
+            // through.
             let by_itself = it == Return::Sonar || Return::Sonar.works(known);
             if by_itself && !it.works(known) {
                 let _ =
@@ -95,7 +96,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         if over || plans.plan(why, left).is_err() {
             return; // the plan in force goes on
         }
-        // What the sonars hid is lost before they return.
+        // Losses that the sonars hid are reported before the sonars return.
         self.lose(Losses::lacking(left), cause);
         let planned = plans.configuration();
         let lost = self.lost.common(Losses::lacking(left).union(self.unused(planned)));

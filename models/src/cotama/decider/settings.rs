@@ -24,7 +24,7 @@ struct Setting {
 }
 
 impl Settings {
-    /// What was found asks for a setting.
+    /// Adopts the setting that a diagnosis asks for.
     pub(super) fn found(&mut self, diagnosis: Diagnosis, flags: Flags, cause: Cause) {
         if let Some(setting) = diagnosis.adjustment().and_then(|it| self.0.get_mut(it as usize)) {
             (setting.cause, setting.flags) = (cause, flags);
@@ -55,7 +55,7 @@ impl Settings {
         })
     }
 
-    /// What they leave of speed and quality.
+    /// Returns the factors that the settings leave of speed and quality.
     pub(super) fn effect(&self, now: Millis, mode: Mode) -> Adjusted {
         let lasts = |it: &Setting| {
             let gone = now.0.saturating_sub(it.seen.0);

@@ -7,7 +7,7 @@ use crate::cotama::members::members;
 use crate::cotama::supervisors::{local, path_following, teleoperation};
 
 members! {
-    /// What the GOM or a module tells the contextual supervisor.
+    /// A report of the GOM or a module to the contextual supervisor.
     Report,
     /// Reports.
     Reports(u16) {
@@ -57,13 +57,26 @@ pub enum Class {
 }
 
 impl Class {
+    /// All classes, from the weakest on.
+    pub const ALL: [Self; 4] = [Self::Record, Self::Adapter, Self::Local, Self::Global];
+
+    /// Returns the class of an output of [`contextual`](crate::cotama::contextual), the net that
+    /// decides: all but two outputs go to an adapter.
+    pub fn of_output(output: &str) -> Self {
+        match output {
+            "global_event" => Self::Global,
+            "local_event" => Self::Local,
+            _ => Self::Adapter,
+        }
+    }
+
     /// The stronger of two.
     #[must_use]
     pub const fn worse(self, other: Self) -> Self {
         if self as u8 >= other as u8 { self } else { other }
     }
 
-    /// Its name in the FMECA: the supervisor that its event goes to.
+    /// Returns the name in the FMECA: the supervisor that receives the event.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Record => "record",
@@ -77,7 +90,7 @@ impl Class {
 /// The answer to a report: which event goes to which supervisor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Decision {
-    /// None.
+    /// No decision beyond the record.
     Record,
     /// `adapt_rt` to the adapter of path following: fewer particles.
     AdaptRt,
@@ -145,8 +158,8 @@ impl Report {
     }
 }
 
-/// What is lost once a report was answered: with its own loss, and with localisation when it is too
-/// slow with the fewest particles, so that the next drive starts without it (inferred).
+/// Returns the losses once a report was answered: with its own loss, and with localisation when it
+/// is too slow with the fewest particles, so that the next drive starts without it (inferred).
 #[must_use]
 pub const fn lost_after(report: Report, situation: Situation) -> Losses {
     let lost = match report.loss() {
@@ -204,8 +217,8 @@ pub const fn decide(report: Report, situation: Situation) -> Decision {
     }
 }
 
-/// What the running adapter can do about a report (the transitions of [`path_following`] and
-/// [`teleoperation`]).
+/// Returns the decision that the running adapter can take on a report (the transitions of
+/// [`path_following`] and [`teleoperation`]).
 pub(super) const fn adaptation(report: Report, situation: Situation) -> Option<Decision> {
     use path_following::State as Adapter;
     let (adapter, level) = (situation.following, situation.level);

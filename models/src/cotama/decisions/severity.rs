@@ -10,17 +10,20 @@ use crate::cotama::modules::{Module, Modules};
 pub enum Severity {
     /// The sub-objective goes on nearly as before.
     Weak,
-    /// It goes on after an adaptation.
+    /// The sub-objective goes on after an adaptation.
     Medium,
-    /// It does not go on without help.
+    /// The sub-objective does not go on without help.
     Hard,
     /// The mission cannot go on.
     Fatal,
 }
 
 impl Severity {
-    /// Its class (stated, Sections III.C and V.B): weak and medium go to the adapter, hard to the
-    /// local, fatal to the global supervisor.
+    /// All severities, from the weakest on.
+    pub const ALL: [Self; 4] = [Self::Weak, Self::Medium, Self::Hard, Self::Fatal];
+
+    /// Returns the class (stated, Sections III.C and V.B): weak and medium go to the adapter, hard
+    /// to the local, fatal to the global supervisor.
     pub const fn class(self) -> Class {
         match self {
             Self::Weak | Self::Medium => Class::Adapter,
@@ -29,7 +32,7 @@ impl Severity {
         }
     }
 
-    /// Its name in the FMECA.
+    /// Returns the name in the FMECA.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Weak => "weak",

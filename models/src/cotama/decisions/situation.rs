@@ -1,4 +1,4 @@
-//! Where the robot is when a report comes: what the contextual supervisor looks at.
+//! The situation in which a report comes: the input of the contextual supervisor.
 
 use crate::cotama::members::members;
 use crate::cotama::modules::Health;
@@ -53,7 +53,7 @@ pub struct Situation {
     pub teleoperation: teleoperation::State,
     /// The particle level of [`path_following`]: 2 full, 1 fewer, 0 the floor.
     pub level: u8,
-    /// What is lost.
+    /// The losses.
     pub lost: Losses,
 }
 
@@ -126,7 +126,7 @@ impl Situation {
 }
 
 impl Losses {
-    /// What the losses mean for modules and resources.
+    /// Returns the health that the losses stand for, in modules and resources.
     pub const fn health(self) -> Health {
         let mut health = Health::SOUND;
         if self.has(Loss::Avoidance) {
@@ -161,11 +161,11 @@ impl Losses {
 }
 
 impl Losses {
-    /// What the shipped supervisors are told when only these modules are left, closed under the
-    /// needs of modules: what each of them does, and what needs it. The avoidance of path following
-    /// is told apart only where the sonars are left. When no path following runs, nothing vital is
-    /// left (inferred: the robot does not wait for an operator who would have to drive it all the
-    /// way).
+    /// Returns the losses reported to the shipped supervisors when only these modules are left,
+    /// closed under the needs of modules: the functions of the others, and those that need them.
+    /// The avoidance of path following is told apart only where the sonars are left. When no path
+    /// following runs, nothing vital is left (inferred: the robot does not wait for an operator who
+    /// would have to drive it all the way).
     ///
     /// ```
     /// use cotama_models::cotama::Module::{Dvz, Gui, Mcl, Smz, Ust};
@@ -221,8 +221,8 @@ impl Losses {
         }
     }
 
-    /// What is to be withdrawn beside these losses, so that the adapter comes to the path following
-    /// that a plan has chosen.
+    /// Returns the losses to be withdrawn beside these, so that the adapter comes to the path
+    /// following that a plan has chosen.
     ///
     /// ```
     /// use cotama_models::cotama::Configuration::{FollowingDegraded, FollowingDvz};
@@ -247,8 +247,8 @@ impl Losses {
 }
 
 impl From<Health> for Losses {
-    /// What the supervisors see of a state of health. Losses are independent: lost sonars are no
-    /// lost localisation.
+    /// Returns the losses that the supervisors see in a state of health. Losses are independent:
+    /// lost sonars are no lost localisation.
     fn from(health: Health) -> Self {
         let Health { faulty, lost, .. } = health;
         let following = Configuration::FollowingDegraded.facts().required;

@@ -1,9 +1,9 @@
-//! What an adapter changes on a failure that is weak or medium and takes no module: the reaction
-//! column of the FMECA, as far as it is a setting.
+//! The changes that an adapter makes on a failure that is weak or medium and takes no module: the
+//! reaction column of the FMECA, as far as it is a setting.
 //!
-//! Stated is that such a failure goes on "with an adapted configuration of the low level modules"
-//! (Durand et al., TAROS 2010, Section V.B), and that the adapter may change parameters of modules
-//! (Section V.C.3). Which parameters, and all numbers, are assumed.
+//! Stated (Durand et al., TAROS 2010) is that the sub-objective stays and its modules are set up
+//! differently (Section V.B), by other parameters for instance (Section V.C.3). Which parameters,
+//! and all numbers, are assumed.
 //!
 //! | adjustment | rows | speed | quality |
 //! | --- | --- | --- | --- |
@@ -17,13 +17,11 @@
 //! | give way | HUM1 | 500 ‰ | |
 //! | go carefully | COL1 | 500 ‰ | |
 
-use super::diagnosis::Diagnosis;
-use super::table::FailureMode;
 use crate::cotama::members::members;
 use crate::cotama::modules::Mode;
 
 members! {
-    /// What an adapter changes while a weak or medium failure lasts.
+    /// A change that an adapter makes while a weak or medium failure lasts.
     Adjustment,
     /// Adjustments.
     Adjustments(u16) {
@@ -57,9 +55,9 @@ members! {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Adjusted {
-    /// Of the speed limit of the configuration.
+    /// Factor of the speed limit of the configuration, in thousandths.
     pub speed: u16,
-    /// Of the quality of what is driven.
+    /// Factor of the quality of driven activities, in thousandths.
     pub quality: u16,
 }
 
@@ -67,7 +65,7 @@ impl Adjustment {
     /// For how long, in milliseconds, it outlasts its failure: assumed.
     pub const HOLD_MS: u32 = 5_000;
 
-    /// What it leaves in an autonomy mode.
+    /// Returns the factors that the adjustment leaves in an autonomy mode.
     pub const fn effect(self, mode: Mode) -> Adjusted {
         let driven = matches!(mode, Mode::Teleoperated);
         let (speed, quality) = match self {
@@ -85,7 +83,7 @@ impl Adjustment {
 }
 
 impl Adjustments {
-    /// What they leave together: the least of each.
+    /// Returns the factors that the adjustments leave together: the least of each.
     ///
     /// ```
     /// use cotama_models::cotama::{Adjusted, Adjustment, Adjustments, Mode};
@@ -101,32 +99,5 @@ impl Adjustments {
                 quality: left.quality.min(it.quality),
             },
         )
-    }
-}
-
-impl FailureMode {
-    /// What an adapter changes on it, if that is a setting.
-    pub const fn adjustment(self) -> Option<Adjustment> {
-        self.rule().adjustment
-    }
-}
-
-impl Diagnosis {
-    /// What an adapter changes: what the rows of all candidates say alike.
-    ///
-    /// ```
-    /// use cotama_models::cotama::{Adjustment, Diagnosis, FailureMode, FailureModes};
-    /// let late = Diagnosis::Ambiguous(FailureModes::of(&[FailureMode::Cam2, FailureMode::Com2]));
-    /// assert_eq!(late.adjustment(), Some(Adjustment::FewerFrames));
-    /// ```
-    pub fn adjustment(self) -> Option<Adjustment> {
-        match self {
-            Self::Unique(mode) => mode.adjustment(),
-            Self::Ambiguous(modes) => {
-                let first = modes.first().and_then(FailureMode::adjustment);
-                first.filter(|_| modes.iter().all(|it| it.adjustment() == first))
-            }
-            Self::None | Self::Unexplained => None,
-        }
     }
 }

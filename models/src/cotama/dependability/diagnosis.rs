@@ -7,13 +7,14 @@
 //! that come and go is a candidate with any part of them (inferred), and two faults at once are
 //! unexplained unless one of them covers both.
 
+use super::adjustment::Adjustment;
 use super::flags::{Flag, Flags};
 use super::table::{FailureMode, FailureModes, RULES};
 use crate::cotama::decisions::{Report, Severity};
 use crate::cotama::members::members;
 use crate::cotama::modules::{Health, Mode, Module, Modules, available};
 
-/// What the raised flags mean.
+/// The meaning of the raised flags.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Diagnosis {
     /// No flag is raised.
@@ -22,8 +23,8 @@ pub enum Diagnosis {
     Unique(FailureMode),
     /// Several do; the operator must look.
     Ambiguous(FailureModes),
-    /// None does: several faults at once, or one that the FMECA does not know. As an ambiguous one
-    /// it is for the operator.
+    /// No failure mode explains the flags: several faults at once, or one that the FMECA does not
+    /// know. As an ambiguous one it is for the operator.
     Unexplained,
 }
 
@@ -95,9 +96,10 @@ pub const fn undetectable(status: Modules) -> FailureModes {
     set
 }
 
-/// What may break and would be seen by nobody, though it is on a sound robot: an observer that
-/// stops observing is a known fact, and what it alone watches is not known to be sound (inferred).
-/// Faults of whichever module stand apart, since the scheduler sees those that matter.
+/// Returns the parts that may break unseen, though an observer sees them on a sound robot: an
+/// observer that stops observing is a known fact, and the parts that it alone watches are not known
+/// to be sound (inferred). Faults of whichever module stand apart, since the scheduler sees those
+/// that matter.
 ///
 /// ```
 /// use cotama_models::cotama::{Module, Modules, Resource, Resources, available, unwatched};
@@ -209,8 +211,25 @@ pub fn confusable_pairs(status: Modules) -> impl Iterator<Item = (FailureMode, F
 }
 
 impl Diagnosis {
-    /// What is reported of it to the contextual supervisor, and how severe it is in an autonomy
-    /// mode.
+    /// Returns the adjustment on this diagnosis: the one that the rows of all candidates share.
+    ///
+    /// ```
+    /// use cotama_models::cotama::{Adjustment, Diagnosis, FailureMode, FailureModes};
+    /// let late = Diagnosis::Ambiguous(FailureModes::of(&[FailureMode::Cam2, FailureMode::Com2]));
+    /// assert_eq!(late.adjustment(), Some(Adjustment::FewerFrames));
+    /// ```
+    pub fn adjustment(self) -> Option<Adjustment> {
+        match self {
+            Self::Unique(mode) => mode.adjustment(),
+            Self::Ambiguous(modes) => {
+                let first = modes.first().and_then(FailureMode::adjustment);
+                first.filter(|_| modes.iter().all(|it| it.adjustment() == first))
+            }
+            Self::None | Self::Unexplained => None,
+        }
+    }
+
+    /// Returns the report to the contextual supervisor, and its severity in an autonomy mode.
     ///
     /// One failure mode is reported as its row says, and so are several whose rows say the same. Of
     /// others a closed bumper is reported as a collision, whatever closed it: in a degraded
@@ -247,10 +266,10 @@ impl Diagnosis {
         }
     }
 
-    /// What is broken by it. `part` is the module of a fault of one module. An ambiguous one breaks
-    /// nothing, but every module that a candidate would take is suspected. One broken sonar takes
-    /// the arrays as a whole: the coarse rule of the publication, whose failure mode has the arrays
-    /// as its loss.
+    /// Returns the parts that it breaks. `part` is the module of a fault of one module. An
+    /// ambiguous one breaks nothing, but every module that a candidate would take is suspected. One
+    /// broken sonar takes the arrays as a whole: the coarse rule of the publication, whose failure
+    /// mode has the arrays as its loss.
     ///
     /// ```
     /// use cotama_models::cotama::{Flag, Flags, Module, Modules, Resource, Resources, diagnose};
@@ -329,8 +348,8 @@ impl Probe {
 }
 
 impl Probes {
-    /// Those of which each one would tell the two failure modes apart while these modules are
-    /// available.
+    /// Returns the flags of which each one would tell the two failure modes apart while these
+    /// modules are available.
     #[must_use]
     pub fn that_separate(a: FailureMode, b: FailureMode, status: Modules) -> Self {
         let works = |probe: &Probe| status.covers(probe.needs()) && probe.separates(a, b);

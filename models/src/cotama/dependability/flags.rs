@@ -170,7 +170,7 @@ impl Flag {
 }
 
 impl Flags {
-    /// Those that can be raised while these modules are available.
+    /// Returns the flags that can be raised while these modules are available.
     #[must_use]
     pub const fn seen_by(available: Modules) -> Self {
         let (mut seen, mut at) = (Self::NONE, 0);

@@ -2,23 +2,29 @@
 //! how it shows, how severe it is, and what is done.
 //!
 //! The method is that of Durand, Godary-Dejean, Lapierre, Crestani, IROS 2010, and Durand et al.,
-//! TAROS 2010, Section III.A. The rows are the project's own: those marked as seed rules follow
-//! TAROS 2010, the others fill the same form; rates are assumed but where
+//! TAROS 2010, Section III.A. The rows are the project's own: those that name TAROS 2010 follow
+//! it, the others fill the same form; rates are assumed but where
 //! [`Description::rate_label`] says otherwise. Firmware links [`RULES`] alone, the texts stand
 //! apart in [`TEXTS`].
 
+use super::adjustment::Adjustment;
 use super::rule::{Description, Rule};
 use super::table::{FailureMode, RULES, TEXTS};
 use crate::cotama::decisions::{Class, Report, Severity, Situation, by_availability};
 use crate::cotama::modules::{Health, Mode, Module, Modules};
 
 impl FailureMode {
-    /// What reacts to it needs to know.
+    /// Returns the adjustment on this failure mode, if its reaction is a setting.
+    pub const fn adjustment(self) -> Option<Adjustment> {
+        self.rule().adjustment
+    }
+
+    /// Returns the rule: the facts that a reaction needs.
     pub const fn rule(self) -> &'static Rule {
         &RULES[self as usize]
     }
 
-    /// Its words.
+    /// Returns the words of the row.
     pub const fn description(self) -> &'static Description {
         &TEXTS[self as usize]
     }
@@ -31,16 +37,17 @@ impl FailureMode {
         }
     }
 
-    /// What is broken with it; `part` is the module of a fault of one module, and does not matter
-    /// else.
+    /// Returns the parts that it breaks; `part` is the module of a fault of one module, and does
+    /// not matter else.
     pub const fn health(self, part: Modules) -> Health {
         let rule = self.rule();
         let faulty = if rule.one_module { part } else { rule.faulty };
         Health { faulty, lost: rule.lost, suspected: Modules::NONE }
     }
 
-    /// Its class by the two rules of [`by_rules`](crate::cotama::by_rules): the worse of severity
-    /// and what is left available, and global where the operator is needed and cannot be reached.
+    /// Returns the class by the two rules of [`by_rules`](crate::cotama::by_rules): the worse of
+    /// severity and the modules left available, and global where the operator is needed and cannot
+    /// be reached.
     ///
     /// ```
     /// use cotama_models::cotama::{Class, FailureMode, Modules, Situation, local, path_following};

@@ -23,7 +23,7 @@ macro_rules! rows {
             FailureModes(u64) { $(#[doc = concat!($component, ": ", $failure, ".")] $mode = $id,)+ }
         }
 
-        /// What firmware needs of the FMECA, in the order of [`FailureMode`].
+        /// The rules of the FMECA that firmware needs, in the order of [`FailureMode`].
         pub static RULES: [Rule; FailureMode::ALL.len()] = [$(Rule {
             faulty: faulty!($faulty),
             one_module: matches!(stringify!($faulty).as_bytes(), b"one"),

@@ -1,4 +1,4 @@
-//! What a row of the FMECA says: the rule that firmware needs, and the words.
+//! The contents of a row of the FMECA: the rule that firmware needs, and the words.
 
 use super::adjustment::Adjustment;
 use super::flags::Flags;
@@ -11,14 +11,14 @@ use crate::cotama::modules::{Modules, Resources};
 pub enum Persistence {
     /// Until repaired.
     Permanent,
-    /// It passes.
+    /// The failure passes.
     Transient,
-    /// It comes and goes.
+    /// The failure comes and goes.
     Intermittent,
 }
 
 impl Persistence {
-    /// Its name in the FMECA.
+    /// Returns the name in the FMECA.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Permanent => "permanent",
@@ -37,13 +37,13 @@ pub struct Signature {
     /// Flags that it may raise too: effects that depend on the place, and detections of which one
     /// is enough.
     pub sometimes: Flags,
-    /// It can only happen, or only matters, while these modules are available.
+    /// The modules that have to be available for the failure to happen, or to matter.
     pub present: Modules,
-    /// It can only happen while these modules are not.
+    /// The modules that have to be unavailable for the failure to happen.
     pub absent: Modules,
 }
 
-/// What reacts to a failure mode needs to know of it.
+/// The facts of a failure mode that a reaction needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rule {
     /// Modules that are faulty with it.
@@ -62,13 +62,13 @@ pub struct Rule {
     pub persistence: Persistence,
     /// How long its detection takes, in milliseconds.
     pub latency_ms: u32,
-    /// How it shows.
+    /// The flags that show the failure.
     pub signature: Signature,
     /// The report to the contextual supervisor; none for what is recorded only. A report means in
     /// each mode what [`decide`](crate::cotama::decide) says. Hard faults without a report of their
     /// own ask for judgement: [`Report::Ambiguous`] (inferred).
     pub report: Option<Report>,
-    /// What an adapter changes, if that is a setting.
+    /// The adjustment of an adapter, if the reaction is a setting.
     pub adjustment: Option<Adjustment>,
 }
 
@@ -79,21 +79,21 @@ pub struct Description {
     pub function: &'static str,
     /// The component that fails.
     pub component: &'static str,
-    /// How it fails.
+    /// The failure.
     pub failure: &'static str,
-    /// Why.
+    /// The cause.
     pub cause: &'static str,
-    /// With what effect.
+    /// The effect.
     pub effect: &'static str,
     /// Modules lost, in words.
     pub modules: &'static str,
-    /// Who sees it, in words.
+    /// The observer that sees it, in words.
     pub observer: &'static str,
-    /// How it is seen.
+    /// The detection.
     pub detection: &'static str,
     /// Why nothing of the architecture sees it, where nothing does.
     pub silent: Option<&'static str>,
-    /// What is done.
+    /// The reaction, in words.
     pub reaction: &'static str,
     /// Why nothing is changed on a failure that is detected: it is recorded, and the robot goes on.
     pub tolerated: Option<&'static str>,
@@ -101,7 +101,7 @@ pub struct Description {
     pub mtbf_mh: u32,
     /// How well the rate is known; stated: by a data sheet.
     pub rate_label: Label,
-    /// Where the rate comes from.
+    /// Source of the rate.
     pub rate: &'static str,
     /// How the fault is injected in simulation.
     pub injection: &'static str,

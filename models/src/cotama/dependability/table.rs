@@ -1,6 +1,6 @@
 //! The rows of the FMECA, one copy: numbers and sets go to [`RULES`], words to [`TEXTS`].
 //!
-//! Source: the rows marked as seed rules follow Durand et al., TAROS 2010, Sections IV to VI, where
+//! Source: rows that name TAROS 2010 follow Durand et al., TAROS 2010, Sections IV to VI, where
 //! they name a fault; the others fill the same form for a Pioneer 3-DX and are assumed, with shares
 //! and common causes after Carlson and Murphy, IEEE Trans. Robotics 21, 2005, where a row says so.
 
@@ -19,7 +19,8 @@ rows! {
         severity Medium Medium, class Adapter, Permanent;
         lost "UST MCL SMZ DVZ SIM" [] [SonarArrays];
         seen "O-SEN"
-             "range = 5 m for more than T_stuck while the robot moves more than d_min (seed rule)"
+             "range = 5 m for more than T_stuck while the robot moves more than d_min \
+              (TAROS 2010, VI.A.3)"
              5_000 (flags [SonarFar] with Ust);
         answer Sonar "degraded path following without avoidance and MCL, lower speed; \
                       teleoperation without avoidance";
@@ -245,7 +246,7 @@ rows! {
         cause "too many particles, load of the laptop", effect "loop over 0.1 s";
         severity Medium Weak, class Adapter, Permanent;
         lost "-" [] [];
-        seen "SCH" "K consecutive violations in spite of the extra time (seed rule)"
+        seen "SCH" "K consecutive violations in spite of the extra time (TAROS 2010, VI.A.1)"
              300 (flags [MclLate] with Mcl);
         answer Slow "fewer particles";
         rate 20_000 Assumed "assumed; happens once in the seed run",
@@ -312,7 +313,7 @@ rows! {
         cause "moved furniture, closed door", effect "avoidance loops; backward motion; MCL biased";
         severity Hard Weak, class Local, Permanent;
         lost "-" [] [];
-        seen "O-LOC and O-PF" "two flags, no unique diagnosis (seed)"
+        seen "O-LOC and O-PF" "two flags, no unique diagnosis (TAROS 2010, VI.A.2)"
              8_000 (flags [PoseGrowth, Backward] with Mcl);
         answer Ambiguous "ask the operator, new path";
         rate 4_000 Assumed "assumed", injection "add an obstacle across the path";
@@ -321,7 +322,7 @@ rows! {
         cause "time without fix", effect "collision with a wall";
         severity Hard Weak, class Local, Permanent;
         lost "-" [] [];
-        seen "P3D (bumper)" "bumper in degraded mode -> hard (seed)"
+        seen "P3D (bumper)" "bumper in degraded mode -> hard (TAROS 2010, VI.A.4)"
              100 (flags [Bumper] without Mcl);
         answer Collision "operator, degraded teleoperation";
         rate 500 Assumed "assumed; grows with distance (odometry model)", injection "emergent";
@@ -339,7 +340,8 @@ rows! {
         severity Medium Medium, class Adapter, Transient;
         lost "-" [] [];
         seen "P3D (bumper)" "bumper closed" 100 (flags [Bumper] with Smz);
-        answer Collision "stop, back off, slower; hard if avoidance is already off (seed)",
+        answer Collision "stop, back off, slower; hard if avoidance is already off \
+                          (TAROS 2010, VI.A.4)",
                adjusts GoCarefully;
         rate 20_000 Assumed "assumed", injection "glass wall invisible to sonar";
     }

@@ -36,7 +36,7 @@ members! {
     }
 }
 
-/// What a configuration is for.
+/// The purpose of a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SubObjective {
     /// A path is wanted.
@@ -51,7 +51,7 @@ pub enum SubObjective {
     Security,
 }
 
-/// Who decides how the robot moves.
+/// The autonomy mode: the decider of the robot's motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mode {
     /// Nobody: there is no drive.
@@ -66,14 +66,31 @@ pub enum Mode {
     Teleoperated,
 }
 
-/// What is known of a configuration.
+impl Mode {
+    /// All modes.
+    pub const ALL: [Self; 5] =
+        [Self::Rest, Self::Autonomous, Self::HandOver, Self::Teleprogrammed, Self::Teleoperated];
+
+    /// Returns the name in traces.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Rest => "rest",
+            Self::Autonomous => "autonomous",
+            Self::HandOver => "hand-over",
+            Self::Teleprogrammed => "teleprogrammed",
+            Self::Teleoperated => "teleoperated",
+        }
+    }
+}
+
+/// The facts of a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ConfigurationFacts {
     /// The configuration.
     pub configuration: Configuration,
-    /// What it is for.
+    /// Purpose of the configuration.
     pub sub_objective: SubObjective,
-    /// Who decides.
+    /// Autonomy mode.
     pub mode: Mode,
     /// Modules without which it cannot run.
     pub required: Modules,
@@ -95,7 +112,7 @@ pub const FULL_SPEED: MillimetresPerSecond = MillimetresPerSecond(300);
 pub const DEGRADED_SPEED: MillimetresPerSecond = MillimetresPerSecond(150);
 const NO_SPEED: MillimetresPerSecond = MillimetresPerSecond(0);
 
-/// What is known of each configuration, in the order of [`Configuration`].
+/// The facts of each configuration, in the order of [`Configuration`].
 ///
 /// Stated are PF.OPT and PF.DEG as sets, the reduction of particles, and in words teleoperation
 /// without avoidance and security. LAN is optional where nobody is asked (inferred). PF.DVZ is
@@ -172,7 +189,7 @@ impl ConfigurationFacts {
 }
 
 impl Configuration {
-    /// What is known of it.
+    /// Returns the facts of the configuration.
     pub const fn facts(self) -> &'static ConfigurationFacts {
         &CONFIGURATIONS[self as usize]
     }
@@ -218,7 +235,7 @@ impl Configuration {
         scheduled
     }
 
-    /// Those that run on the available modules.
+    /// Returns the configurations that run on the available modules.
     pub const fn running_on(available: Modules) -> Configurations {
         let (mut set, mut at) = (Configurations::NONE, 0);
         while at < Self::ALL.len() {
@@ -231,7 +248,7 @@ impl Configuration {
     }
 }
 
-/// What a module needs and a set does not hold.
+/// Returns the modules that a module needs and a set does not hold.
 const fn lacks(it: &ModuleFacts, set: Modules) -> Modules {
     let all = it.needs.without(set);
     if it.needs_one_of.common(set).is_empty() { all.union(it.needs_one_of) } else { all }

@@ -4,7 +4,7 @@ use super::module::{Module, Modules};
 use super::resources::Resources;
 use super::table::available;
 
-/// What is diagnosed so far.
+/// The diagnosed state of modules and resources.
 ///
 /// ```
 /// use cotama_models::cotama::{Health, Module, Resource, Resources};
@@ -26,11 +26,11 @@ pub struct Health {
 /// ambiguous diagnosis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Status {
-    /// It can be used.
+    /// The module can be used.
     Available,
-    /// It can be used, but would be unavailable if a suspected module were faulty.
+    /// The module can be used, but would be unavailable if a suspected module were faulty.
     Suspect,
-    /// It cannot be used.
+    /// The module cannot be used.
     Unavailable,
 }
 
@@ -46,7 +46,7 @@ impl Health {
     pub const SOUND: Self =
         Self { faulty: Modules::NONE, lost: Resources::NONE, suspected: Modules::NONE };
 
-    /// What both say.
+    /// Returns the union of both.
     #[must_use]
     pub const fn union(self, other: Self) -> Self {
         Self {
@@ -98,7 +98,7 @@ impl StatusVector {
         Modules::ALL.without(self.unavailable)
     }
 
-    /// Those of them that are suspect.
+    /// Returns the available modules that are suspect.
     #[must_use]
     pub const fn suspect(self) -> Modules {
         self.suspect

@@ -21,7 +21,7 @@
 //! ([`most_particles`]), for each [`Load`].
 //!
 //! ```
-//! use cotama_core::executive::{Overruns, TaskSet, Unschedulable};
+//! use cotama_core::executive::{Overruns, TaskSet, ScheduleError};
 //! use cotama_models::cotama::Configuration::FollowingOptimal;
 //! use cotama_models::cotama::load::{self, Load, SPARE};
 //!
@@ -32,13 +32,13 @@
 //! let tasks = load::tasks(FollowingOptimal, Load::Busy, 500, &mut tasks);
 //! let late = TaskSet::new(tasks).unwrap().schedulable(Overruns::None);
 //! let localisation = tasks.len() - 1;
-//! assert!(matches!(late, Err(Unschedulable::Late { task, .. }) if task == localisation));
+//! assert!(matches!(late, Err(ScheduleError::Late { task, .. }) if task == localisation));
 //! ```
 
 use super::configurations::Configuration;
 use super::module::Module::{self, Mcl};
 use core::fmt;
-use cotama_core::executive::{Overruns, Task, TaskError, TaskSet, Unschedulable};
+use cotama_core::executive::{Overruns, ScheduleError, Task, TaskError, TaskSet};
 use cotama_core::units::Micros;
 
 const fn ms(ms: u64) -> Micros {
@@ -52,12 +52,12 @@ pub const DEADLINE: Micros = ms(80);
 /// How long a late module may go on.
 pub const EXTRA: Micros = ms(20);
 
-/// What a job of a module costs.
+/// The cost of a job of a module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ModuleCost {
     /// The module.
     pub module: Module,
-    /// Its worst-case execution time; of the localisation, without particles.
+    /// Worst-case execution time; of the localisation, without particles.
     pub cost: Micros,
 }
 
@@ -95,16 +95,16 @@ const LOCALISATION: ModuleCost = ModuleCost { module: Mcl, cost: ms(6) };
 /// The processor time of a particle in each period; assumed.
 pub const PARTICLE: Micros = Micros(80);
 
-/// What else the computer of the robot does, more urgent than all modules; assumed. It is a task as
+/// Other load of the robot's computer, more urgent than all modules; assumed. The load is a task as
 /// well, with a period of 10 ms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Load {
-    /// Nothing.
+    /// No other load.
     Quiet,
-    /// It takes 3 ms of every 10: the load that the localisation meets soon after the start of the
-    /// path following.
+    /// 3 ms of every 10: the load that the localisation meets soon after the start of the path
+    /// following.
     Busy,
-    /// It takes 4 ms of every 10: the most for which the floor of particles is meant.
+    /// 4 ms of every 10: the most for which the floor of particles is meant.
     Heavy,
 }
 
@@ -126,7 +126,7 @@ pub const PARTICLES: [u32; 3] = [100, 200, 500];
 /// The most tasks that there are: every module, and the load.
 pub const MOST: usize = COSTS.len() + 1;
 
-/// What memory for tasks is filled with.
+/// A task that fills unused memory.
 pub const SPARE: Task = Task::new(Micros::ZERO, Micros::ZERO);
 
 /// Why nothing can be said of a configuration.
@@ -135,7 +135,7 @@ pub enum LoadError {
     /// A task makes no sense.
     Task(TaskError),
     /// The limit of iterations was reached.
-    Iterations(Unschedulable),
+    Iterations(ScheduleError),
 }
 
 impl fmt::Display for LoadError {

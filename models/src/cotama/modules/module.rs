@@ -54,7 +54,7 @@ members! {
     }
 }
 
-/// What a module is, in the terms of the architecture.
+/// The kind of a module, in the terms of the architecture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
     /// Handles data or hardware.
@@ -67,14 +67,14 @@ pub enum Kind {
     Diagnosis,
 }
 
-/// What is known of a module.
+/// The facts of a module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ModuleFacts {
     /// The module.
     pub module: Module,
-    /// What it is.
+    /// Kind of the module.
     pub kind: Kind,
-    /// What it does.
+    /// Function of the module, in words.
     pub function: &'static str,
     /// Data it consumes (inferred).
     pub inputs: Data,

@@ -1,5 +1,5 @@
-//! What passes between modules: data, events, requests, parameters (Durand et al., TAROS 2010,
-//! Section II.B: a module has ports for each).
+//! Ports between modules: data, events, requests, parameters (Durand et al., TAROS 2010, Section
+//! II.B: a module has ports for each).
 
 use crate::cotama::label::Label;
 use crate::cotama::members::members;
@@ -17,7 +17,7 @@ members! {
         Ticks = "ticks",
         /// Bumpers, battery voltage, stall, emergency button.
         RobotState = "robot state",
-        /// What the motors shall do.
+        /// The command to the motors.
         MotorCommand = "motor command",
         /// The pose by the particle filter.
         MclPose = "MCL pose",
@@ -62,7 +62,7 @@ members! {
     }
 }
 
-/// A request that every module takes (stated: the four of them).
+/// A request that every module takes (stated: three types, and that requests also set ports).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Request {
     /// Run.
@@ -71,14 +71,14 @@ pub enum Request {
     Stop,
     /// End.
     Kill,
-    /// Set the data and event ports.
+    /// Set the data and event ports: no type of its own in the paper.
     Configure,
 }
 
 /// A setting that a request carries to a module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Parameter {
-    /// Its name, unique in its module.
+    /// Name of the port, unique in its module.
     pub name: &'static str,
     /// The unit of the three numbers; empty for a count.
     pub unit: &'static str,

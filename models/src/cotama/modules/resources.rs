@@ -1,4 +1,4 @@
-//! What modules stand on: the hardware of the Pioneer 3-DX with its laptop, and the map.
+//! The resources of modules: the hardware of the Pioneer 3-DX with its laptop, and the map.
 
 use crate::cotama::members::members;
 

@@ -19,7 +19,7 @@ use super::resources::{Resource, Resources};
 use crate::cotama::label::Label::{self, Assumed, Inferred, Stated};
 use crate::cotama::members::differ;
 
-/// What is known of each module, in the order of [`Module`].
+/// The facts of each module, in the order of [`Module`].
 ///
 /// Stated is what Durand et al., TAROS 2010, say in their text, their Table I and their two module
 /// sets. NAV is in both sets and is nowhere defined; ODO and CTR are defined and are in no set:
@@ -221,7 +221,7 @@ impl ModuleFacts {
 }
 
 impl Module {
-    /// What is known of it.
+    /// Returns the facts of the module.
     pub const fn facts(self) -> &'static ModuleFacts {
         &MODULES[self as usize]
     }

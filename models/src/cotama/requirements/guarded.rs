@@ -1,4 +1,4 @@
-//! What transitions are required to look at.
+//! The conditions that transitions are required to have.
 
 use cotama_core::net::{Arc, PlaceId, Transition};
 use cotama_core::system::{Of, System, Target};
@@ -10,9 +10,9 @@ use cotama_core::system::{Of, System, Target};
 pub struct Guarded {
     /// The net, by its name in the system.
     pub net: &'static str,
-    /// Where they come from.
+    /// The places that the transitions leave.
     pub from: &'static str,
-    /// Where they go.
+    /// The places that the transitions reach.
     pub to: &'static str,
     /// The places, each as `net.place`.
     pub by: &'static [&'static str],

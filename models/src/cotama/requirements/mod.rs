@@ -1,5 +1,5 @@
-//! What the decisional level is required to do: questions to the model checker, and what makes each
-//! of them true.
+//! The requirements of the decisional level: questions to the model checker, and the reasons why
+//! each of them holds.
 
 mod guarded;
 mod properties;

@@ -1,4 +1,4 @@
-//! What the decisional level is required to do, and how each requirement is known.
+//! The requirements of the decisional level, and how each of them is known.
 //!
 //! Numbers follow the supervisors: GS global, LS local, AS adapters, CS contextual, GM observation
 //! module, OB observers, WD watchdog, DP the permit to move, M the robot. Texts are in the language
@@ -23,7 +23,7 @@ use super::guarded::Guarded;
 use super::requirement::{Asked, Requirement, Watch, at_end, requirements, said};
 use crate::cotama::label::Label;
 
-/// What is lost and used at the ends of rounds in a row.
+/// Watches a loss that is used at the ends of rounds in a row.
 macro_rules! used_without {
     ($name:literal, $lost:literal, $used:literal) => {
         at_end(
@@ -35,7 +35,7 @@ macro_rules! used_without {
     };
 }
 
-/// Where path following runs.
+/// The places in which path following runs.
 const FOLLOWING: &[&str] = &["Optimal", "Reduced", "Odometric", "Reactive", "Degraded"];
 
 requirements! {
@@ -126,7 +126,7 @@ requirements! {
     LS6 Stated "From everywhere a drive can end; in each of its modes it can still reach its goal, \
                 unless something vital is lost; and it ends when failures do and everybody goes \
                 on.",
-        checked "AG (EF ls.Idle & (gom.vital & gom.wifi & !ls.Idle & !gs.global_event.waiting & \
+        checked "AG ((EF ls.Idle) & (gom.vital & gom.wifi & !ls.Idle & !gs.global_event.waiting & \
                  !cs.refusal.waiting & faults.wifi & faults.vital -> EF ls.End))",
         tested in "verification/tests/rounds/liveness.rs";
     LS7 Stated "No two of planning, path following and teleoperation run together; what ends is \

@@ -1,5 +1,5 @@
-//! What the decisional level is required to do where modules may return, in place of [`REPLACED`]
-//! of the requirements of [`delivery`](crate::cotama::delivery).
+//! The requirements of the decisional level where modules may return, in place of [`REPLACED`] of
+//! the requirements of [`delivery`](crate::cotama::delivery).
 
 use super::requirement::{Asked, Requirement, at_end, requirements, said};
 use crate::cotama::label::Label;
@@ -9,7 +9,7 @@ use crate::cotama::label::Label;
 pub const REPLACED: [&str; 2] = ["AS3", "GM2"];
 
 requirements! {
-    /// What [`recovering`](crate::cotama::recovering) is required to do beside the requirements of
+    /// The requirements of [`recovering`](crate::cotama::recovering) beside those of
     /// [`delivery`](crate::cotama::delivery) but [`REPLACED`].
     RECOVERY_REQUIREMENTS;
     RC1 Assumed "An adapter goes up at most once for each return of a module, two rounds after it.",

@@ -1,4 +1,4 @@
-//! What a requirement says of itself, and the table in which requirements are written.
+//! The parts of a requirement, and the table in which requirements are written.
 
 use super::guarded::Guarded;
 use crate::cotama::label::Label;
@@ -17,17 +17,17 @@ use cotama_core::system::System;
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Requirement {
-    /// Its short name, for example `GS3`.
+    /// Short name, for example `GS3`.
     pub id: &'static str,
-    /// What is required, in a sentence.
+    /// The requirement in a sentence.
     pub sentence: &'static str,
-    /// Where it comes from.
+    /// Source of the requirement.
     pub label: Label,
-    /// What a checker is asked.
+    /// The question to a checker.
     pub asked: Option<Asked>,
-    /// What transitions say.
+    /// The outputs that transitions have to emit.
     pub said: &'static [Said],
-    /// What transitions look at.
+    /// The conditions that transitions have to check.
     pub guarded: &'static [Guarded],
     /// The file of the tests that show the rest, in which a comment of one of them has its short
     /// name.
@@ -37,7 +37,7 @@ pub struct Requirement {
 /// A property of the net of rounds.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked {
-    /// What it takes to remember.
+    /// The observers that the question needs.
     pub watches: &'static [Watch],
     /// The property.
     pub text: &'static str,
@@ -47,16 +47,16 @@ pub struct Asked {
 /// where the second one is, no sooner than a round later. It is a place of its name.
 #[derive(Clone, Copy, Debug)]
 pub struct Watch {
-    /// Its name.
+    /// Name of the observer.
     pub name: &'static str,
     /// Whether it looks at the end of a round, or else when every net has had its turn and what is
     /// outside has not.
     pub at_end: bool,
-    /// What begins it.
+    /// The condition that begins the interval.
     pub begins: &'static str,
-    /// What ends it.
+    /// The condition that ends the interval.
     pub ends: &'static str,
-    /// It counts no further.
+    /// Largest count.
     pub most: u32,
 }
 
@@ -66,11 +66,11 @@ pub struct Watch {
 pub struct Said {
     /// The net, by its name in the system.
     pub net: &'static str,
-    /// Where they come from; without any, from wherever but `to`.
+    /// The places that the transitions leave; if empty, any but `to`.
     pub from: &'static [&'static str],
-    /// Where they go.
+    /// The places that the transitions reach.
     pub to: &'static [&'static str],
-    /// What they say.
+    /// The output that the transitions emit.
     pub output: &'static str,
     /// The event that they answer, where not all of them are meant.
     pub on: Option<&'static str>,

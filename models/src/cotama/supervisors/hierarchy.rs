@@ -169,7 +169,7 @@ net! {
         shared { sonar: true, mcl: true, smz: true, avoidance: true }
         events {
             adapt_rt, adapt_mcl, adapt_sonar, adapt_bump,
-            /// Its avoidance is lost, and the sonars are not.
+            /// Path following has lost its avoidance, and the sonars are there.
             adapt_smz,
             /// The other avoidance is.
             adapt_avoidance,

@@ -67,13 +67,13 @@ net! {
             RETURNS: 2,
         }
         places {
-            /// It can be used.
+            /// The module can be used.
             Available: 1,
-            /// It is lost.
+            /// The module is lost.
             Lost,
-            /// It is sound, and not yet for long enough.
+            /// The module is sound, and not yet for long enough.
             Settling,
-            /// It is lost for good.
+            /// The module is lost for good.
             Gone,
         }
         counters {
@@ -81,13 +81,13 @@ net! {
             returns: RETURNS of RETURNS,
         }
         events {
-            /// Its observer finds it faulty.
+            /// The observer finds the module faulty.
             lost,
-            /// Its observer finds it sound.
+            /// The observer finds the module sound.
             sound,
         }
         outputs {
-            /// It counts as available again.
+            /// The module counts as available again.
             restored,
         }
         transitions {
@@ -95,7 +95,7 @@ net! {
             r2 on lost [returns < 1]: Available => Gone;
             r3 on sound: Lost => Settling;
             r4 on lost: Settling => Lost;
-            /// It was sound for long enough.
+            /// The module was sound for long enough.
             r5: Settling => Available do returns -= 1 emit restored within HOLD..=HOLD ms;
         }
         ignore {

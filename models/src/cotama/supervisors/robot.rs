@@ -18,7 +18,7 @@ net! {
         events {
             /// An activity that moves the robot starts.
             grant,
-            /// It ends.
+            /// The activity ends.
             revoke,
             /// The mission is given up.
             halt,

@@ -1,4 +1,4 @@
-//! What the shipped supervisors are closed with for checking: everything that may fail, and the
+//! The environment of the shipped supervisors for checking: every failure that may happen, and the
 //! operator.
 
 use cotama_core::net;

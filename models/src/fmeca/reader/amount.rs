@@ -20,7 +20,7 @@ pub(super) fn thousandths(text: &str) -> Option<u64> {
     if shift >= 0 {
         return if number == 0 { Some(0) } else { number.checked_mul(power?) };
     }
-    // What is beyond the third decimal must be nothing.
+    // Digits beyond the third decimal must be zero.
     match power {
         Some(power) if number.is_multiple_of(power) => Some(number / power),
         None if number == 0 => Some(0),

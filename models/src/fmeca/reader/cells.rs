@@ -5,6 +5,7 @@
 
 use super::row::Row;
 use crate::fmeca::analysis::MAX_MODES;
+use crate::fmeca::csv::{is_between, is_formula};
 use crate::missions::reader::fields::{Reported, Sink};
 use crate::missions::{Diagnostic, Spanned};
 use crate::names::{MAX_ID, nearest, quoted};
@@ -71,8 +72,15 @@ impl Table {
             refuse(only.span.clone(), message, "save it as comma-separated values");
             return None;
         }
+        let mut rows: Vec<_> = lines.collect();
+        if let Some((row, number)) = heading_below(&heading, &rows) {
+            let message = "the first row holds the names of the columns, and this one does not";
+            let help = format!("{number} of them stand in the row {row}: remove what is above it");
+            refuse(place(&heading), message.to_owned(), &help);
+            return None;
+        }
+        let heading = without_nameless(heading, &mut rows);
         let columns = columns(&heading, sink)?;
-        let rows: Vec<_> = lines.collect();
         let end = text.len()..text.len();
         if rows.is_empty() {
             refuse(end, "there is no row".to_owned(), "write one line a failure mode");
@@ -85,8 +93,13 @@ impl Table {
         }
         for row in rows.iter().filter(|it| it.len() != columns.len()) {
             let (cells, names) = (row.len(), columns.len());
-            let message = format!("this row has {cells} cells, but there are {names} columns");
-            let help = "write a text with a comma in it between double quotes";
+            let found = if cells == 1 { "1 cell".to_owned() } else { format!("{cells} cells") };
+            let message = format!("this row has {found}, but there are {names} columns");
+            let help = if cells > names {
+                "write a text with a comma in it between double quotes"
+            } else {
+                "an empty cell has its comma, too"
+            };
             refuse(place(row), message, help);
         }
         sink.is_empty().then_some(Self { columns, rows })
@@ -96,6 +109,69 @@ impl Table {
     pub(super) fn rows<'t>(&'t self, sink: &'t Sink) -> impl Iterator<Item = Line<'t>> {
         self.rows.iter().map(move |cells| Line { columns: &self.columns, cells, sink })
     }
+}
+
+fn is_blank(cell: &Cell) -> bool {
+    cell.value.trim().is_empty()
+}
+
+/// A heading and its rows without the columns in which nothing stands, as spreadsheets write them
+/// behind and between those of a table.
+fn without_nameless(heading: Vec<Cell>, rows: &mut [Vec<Cell>]) -> Vec<Cell> {
+    for row in rows.iter_mut() {
+        while row.len() > heading.len() && row.last().is_some_and(is_blank) {
+            row.pop();
+        }
+    }
+    let is_kept = |at: usize, name: &Cell, rows: &[Vec<Cell>]| {
+        !is_blank(name) || rows.iter().any(|row| row.get(at).is_some_and(|it| !is_blank(it)))
+    };
+    let kept: Vec<bool> =
+        heading.iter().enumerate().map(|(at, name)| is_kept(at, name, rows)).collect();
+    if kept.iter().all(|it| *it) {
+        return heading;
+    }
+    let all = kept.len();
+    let pruned = |cells: Vec<Cell>| -> Vec<Cell> {
+        // A row of another length is refused as it stands.
+        let cells = cells.into_iter().zip(kept.iter().chain(std::iter::repeat(&true)));
+        cells.filter(|it| *it.1).map(|it| it.0).collect()
+    };
+    for row in rows.iter_mut().filter(|it| it.len() >= all) {
+        *row = pruned(std::mem::take(row));
+    }
+    // Spreadsheets leave out commas behind the last cell of a row, too.
+    for row in rows.iter_mut().filter(|it| it.len() < all) {
+        let short = kept.iter().skip(row.len()).all(|it| !it);
+        if short {
+            *row = pruned(std::mem::take(row));
+        }
+    }
+    pruned(heading)
+}
+
+/// The key that a cell of a heading names.
+fn key_of(cell: &Cell) -> Option<&'static str> {
+    let name = normal(&cell.value);
+    KEYS.iter().find(|(key, others)| *key == name || others.contains(&&*name)).map(|it| it.0)
+}
+
+/// The name of a column as it is compared.
+fn normal(name: &str) -> String {
+    name.trim().to_lowercase().replace([' ', '-'], "_")
+}
+
+/// Finds the names of columns below the first row: the line, and how many
+/// there are.
+fn heading_below(heading: &[Cell], rows: &[Vec<Cell>]) -> Option<(String, usize)> {
+    const LOOKED_AT: usize = 20;
+    let named = |row: &[Cell]| row.iter().filter(|it| key_of(it).is_some()).count();
+    if named(heading) > 1 {
+        return None;
+    }
+    let below = rows.iter().take(LOOKED_AT).find(|row| named(row) >= 3)?;
+    let first = below.iter().find(|it| !is_blank(it)).map(|it| quoted(it.value.trim()))?;
+    Some((format!("that begins with {first}"), named(below)))
 }
 
 fn place(cells: &[Cell]) -> Range<usize> {
@@ -110,10 +186,11 @@ fn columns(heading: &[Cell], sink: &Sink) -> Option<Vec<Option<&'static str>>> {
         sink.report(Diagnostic::new(span.clone(), message, "this column").help(help));
     };
     for cell in heading {
-        let name = cell.value.trim().to_lowercase().replace([' ', '-'], "_");
-        let key = KEYS.iter().find(|(key, others)| *key == name || others.contains(&&*name));
-        let key = key.map(|it| it.0);
-        if key.is_none() && !COMPUTED.contains(&name.as_str()) {
+        let name = normal(&cell.value);
+        let key = key_of(cell);
+        if name.is_empty() {
+            refuse(&cell.span, "this column has no name".to_owned(), "name it, or empty it".into());
+        } else if key.is_none() && !COMPUTED.contains(&name.as_str()) {
             let known = KEYS.iter().map(|it| it.0);
             let message = format!("unknown column {}", quoted(&cell.value));
             if let Some(near) = nearest(&name, known.clone()) {
@@ -214,7 +291,14 @@ impl Line<'_> {
     /// The cell under a key, unless it is empty.
     fn cell(&self, key: &str) -> Option<Cell> {
         let column = self.columns.iter().position(|it| *it == Some(key))?;
-        self.cells.get(column).filter(|it| !it.value.trim().is_empty()).cloned()
+        let mut cell = self.cells.get(column).filter(|it| !it.value.trim().is_empty()).cloned()?;
+        // The apostrophe is that of spreadsheets, which makes a text of a formula.
+        if let Some(text) = cell.value.strip_prefix('\'')
+            && is_formula(text.trim_start_matches('\''))
+        {
+            cell.value = text.to_owned();
+        }
+        Some(cell)
     }
 }
 
@@ -253,9 +337,22 @@ impl Row for Line<'_> {
     fn list(&mut self, key: &'static str) -> Result<Vec<Cell>, Reported> {
         let Some(cell) = self.cell(key) else { return Ok(Vec::new()) };
         let name = |it: &str| Spanned { value: super::words(it), span: cell.span.clone() };
-        let between = if cell.value.contains(';') { [';'; 2] } else { [' ', '\n'] };
+        let between = if cell.value.contains(';') { ';' } else { '\n' };
         let names = cell.value.split(between).filter(|it| !it.trim().is_empty()).map(name);
-        Ok(names.collect())
+        let names: Vec<_> = names.collect();
+        if let ([one], false) = (names.as_slice(), cell.value.contains(';'))
+            && one.value.contains(is_between)
+        {
+            // Names in lists have been written with these between them, and names have them.
+            let apart = one.value.split(is_between).filter(|it| !it.is_empty());
+            let apart = apart.collect::<Vec<_>>().join("; ");
+            let message = format!("{} is one name, or several", quoted(&one.value));
+            let help = format!("write `{};` for one name, `{apart}` for several", one.value);
+            let unclear = Diagnostic::new(cell.span.clone(), message, "one or several");
+            self.report(unclear.help(help));
+            return Err(Reported);
+        }
+        Ok(names)
     }
 
     fn latency(&mut self) -> Result<Option<(Cell, bool)>, Reported> {

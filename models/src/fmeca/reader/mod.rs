@@ -15,7 +15,7 @@ use crate::missions::{Diagnostic, MissionErrors, Spanned};
 use cells::Table;
 use row::{Draft, words};
 
-/// What the TOML files say that they are.
+/// Value of `format` in the TOML files.
 pub const FORMAT: &str = "cotama-fmeca/1";
 
 /// The time of operation where the file says none, in hours: a working day (assumed).
@@ -40,8 +40,10 @@ impl Analysis {
     }
 
     /// Reads comma-separated values with a heading (RFC 4180): the names of the columns are the
-    /// keys of a TOML file, or those of [`COLUMNS`](super::COLUMNS). A list has names between `;`
-    /// or spaces; `sonar far;` is one name with a space. The title is the name of the file.
+    /// keys of a TOML file, or those of [`COLUMNS`](super::COLUMNS). Names in a list stand between
+    /// `;` or on lines of their own; `sonar far;` is one name with a space, and `sonar far`, which
+    /// could be two, is refused. Columns, cells and rows in which nothing stands are left out, as
+    /// spreadsheets write them behind a table. The title is the name of the file.
     ///
     /// # Errors
     /// All errors of the file, with their places.

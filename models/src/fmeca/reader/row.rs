@@ -7,6 +7,7 @@ use crate::fmeca::set::Set;
 use crate::missions::reader::fields::{Fields, Reported, Sink};
 use crate::missions::{Diagnostic, Spanned};
 use crate::names::{quoted, unknown};
+use cotama_core::text::marked;
 use std::ops::Range;
 
 /// The longest text, in characters.
@@ -16,7 +17,7 @@ const MAX_LATENCY: u64 = 1_000_000_000;
 /// The longest mean time between failures: a thousand million hours, in thousandths.
 const MAX_MTBF: u64 = 1_000_000_000_000;
 
-/// What a row is read from. A method that returns nothing has reported why.
+/// The source of a row. A method that returns nothing has reported why.
 pub(super) trait Row {
     /// A required text.
     fn needed(&mut self, key: &'static str) -> Option<Spanned<String>>;
@@ -31,7 +32,7 @@ pub(super) trait Row {
     /// How long the detection takes, as digits in milliseconds or, where `true`, in seconds.
     fn latency(&mut self) -> Result<Option<(Spanned<String>, bool)>, Reported>;
     fn report(&self, diagnostic: Diagnostic);
-    /// Where the row stands.
+    /// Returns the position of the row in the file, in bytes.
     fn place(&self) -> Range<usize>;
 }
 
@@ -127,12 +128,6 @@ pub(super) fn words(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// What a terminal or a page would obey: control characters, and those that turn the text around.
-fn is_obeyed(c: char) -> bool {
-    c.is_control()
-        || matches!(c, '\u{200e}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
-}
-
 /// A text in one line; reports one that is empty, too long, or has what a terminal would obey.
 pub(super) fn checked(
     report: impl Fn(Diagnostic),
@@ -144,7 +139,7 @@ pub(super) fn checked(
         (format!("`{key}` is empty"), "write a few words".to_owned())
     } else if line.chars().count() > MAX_TEXT {
         (format!("`{key}` has more than {MAX_TEXT} characters"), "shorten it".to_owned())
-    } else if line.contains(is_obeyed) {
+    } else if marked(&line).any(|it| it.1) {
         (format!("`{key}` has a control character"), "leave it out".to_owned())
     } else {
         return Some(line);

@@ -1,5 +1,5 @@
-//! What happens during a run that only supervisors can deal with: failures that observers have to
-//! find, and what the operator answers when the robot asks.
+//! Incidents of a run that only supervisors can deal with: failures that observers have to find,
+//! and answers of the operator to requests of the robot.
 
 use crate::cotama::{Configuration, FailureMode, Module, local, recovering};
 use cotama_core::units::{Millimetres, Millis};
@@ -9,7 +9,7 @@ use cotama_core::units::{Millimetres, Millis};
 pub struct Incident {
     /// When; of what is no failure, by place.
     pub when: Moment,
-    /// What.
+    /// The kind of the incident.
     pub kind: IncidentKind,
 }
 
@@ -27,7 +27,7 @@ pub struct Incident {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Moment {
-    /// Where the robot has come so far along the path.
+    /// The farthest place that the robot has reached along the path.
     Place(Millimetres),
     /// So long after the start.
     At(Millis),
@@ -50,7 +50,7 @@ pub enum Moment {
 pub struct Act {
     /// The net.
     pub net: &'static str,
-    /// Its transition.
+    /// Name of the transition.
     pub transition: &'static str,
 }
 
@@ -93,8 +93,8 @@ impl Moment {
         Self::STATES.iter().find(|it| it.1 == state).map(|it| it.0)
     }
 
-    /// What moments are sorted by.
-    pub(crate) fn key(self) -> (u8, u64) {
+    /// Returns the sort key of a moment.
+    pub fn key(self) -> (u8, u64) {
         match self {
             Self::Place(x) => (0, x.0),
             Self::At(time) => (1, time.0),
@@ -119,19 +119,20 @@ impl std::fmt::Display for Moment {
     }
 }
 
-/// What happens.
+/// The kind of an incident.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum IncidentKind {
     /// Something fails; what that does to the signals is the business of who simulates it.
     Failure {
-        /// What.
+        /// The failure mode.
         mode: FailureMode,
         /// Which module, if it is a failure of one module, whichever it is; of avoidance if none.
         part: Option<Module>,
         /// When it ends, if not by itself or by a [`Repair`](Self::Repair).
         until: Option<Moment>,
     },
-    /// It ends, if it is under way. Whether the module is used again is for the supervisors to say.
+    /// The failure ends, if it is under way. Whether the module is used again is for the
+    /// supervisors to say.
     Repair(FailureMode),
     /// The operator answers the next request of the robot from there on.
     Operator {
@@ -142,9 +143,9 @@ pub enum IncidentKind {
     },
 }
 
-/// What the operator can do (Durand et al., TAROS 2010, Fig. 3). Asked, he drives or edits the path
-/// or gives up; driving, he reaches the goal, or goes over to editing, or gives up; editing, he
-/// gives way-points or a path, or gives up.
+/// An answer of the operator (Durand et al., TAROS 2010, Section V.C.2). Asked, he drives or edits
+/// the path or gives up; driving, he reaches the goal, or goes over to editing, or gives up;
+/// editing, he gives way-points or a path, or gives up.
 ///
 /// ```
 /// use cotama_models::missions::faults::Answer;
@@ -184,12 +185,13 @@ impl Answer {
         Self::GiveUp,
     ];
 
-    /// Its name in mission files.
+    /// Returns the name in mission files.
     pub const fn name(self) -> &'static str {
         Self::NAMES[self as usize]
     }
 
-    /// What can follow it; nothing when the robot goes on, or stops, with it.
+    /// Returns the answers that can follow this one; none when the robot goes on, or stops, with
+    /// it.
     pub const fn next(self) -> &'static [Self] {
         match self {
             Self::Teleoperate => &[Self::Goal, Self::Teleprogram, Self::GiveUp],
@@ -198,7 +200,7 @@ impl Answer {
         }
     }
 
-    /// What can come first.
+    /// The answers that can come first.
     pub const FIRST: &[Self] = &[Self::Teleoperate, Self::Teleprogram, Self::GiveUp];
 
     pub(crate) const fn needs(self) -> Option<Configuration> {

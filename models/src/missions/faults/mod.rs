@@ -1,11 +1,12 @@
-//! What may go wrong during a run: the script of a mission file's `[run]`, or of a
-//! `panorama-faults/1` file.
+//! Faults of a run: the script of a mission file's `[run]`, or of a `panorama-faults/1` file.
 
 use cotama_core::units::{Millimetres, Millis};
 
 mod incidents;
+mod recorded;
 
 pub use incidents::{Act, Answer, Incident, IncidentKind, Moment};
+pub use recorded::{Adapts, Ending, Expected, FaultsFile, OUTCOMES, PlannedBy};
 
 /// The format that a file of faults must name.
 pub const FORMAT: &str = "panorama-faults/1";
@@ -15,7 +16,7 @@ pub const FORMAT: &str = "panorama-faults/1";
 pub struct Run {
     /// Margins are checked every such period.
     pub monitor_period: Millis,
-    /// What goes wrong.
+    /// The faults.
     pub faults: Faults,
 }
 
@@ -25,7 +26,7 @@ impl Default for Run {
     }
 }
 
-/// What goes wrong during a run.
+/// The faults and events of a run.
 ///
 /// ```
 /// use cotama_core::units::Millimetres;
@@ -43,13 +44,13 @@ impl Default for Run {
 pub struct Faults {
     /// By how much the real power differs from the modelled one, by zone.
     pub power_errors: Vec<PowerError>,
-    /// What happens at given places, sorted by place.
+    /// The events at given places, sorted by place.
     pub events: Vec<Event>,
-    /// What happens anywhere.
+    /// The random events, which occur anywhere.
     pub random: Vec<RandomEvent>,
-    /// What the supervisors of a supervised mission have to deal with, sorted by moment; in files
-    /// these are events of the kinds `failure`, `repair` and `operator`. A plan, and a run without
-    /// supervisors, knows nothing of them.
+    /// The incidents that the supervisors of a supervised mission have to deal with, sorted by
+    /// moment; in files these are events of the kinds `failure`, `repair` and `operator`. A plan,
+    /// and a run without supervisors, knows nothing of them.
     pub incidents: Vec<Incident>,
 }
 
@@ -66,16 +67,17 @@ pub struct PowerError {
 /// Something that happens once, at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Event {
-    /// Where, by the path.
+    /// Position along the path.
     pub x: Millimetres,
-    /// What.
+    /// The kind of the event.
     pub kind: EventKind,
 }
 
-/// What happens.
+/// The kind of an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EventKind {
-    /// Something stands in the way; time is lost, at the power of the current alternative.
+    /// Something stands in the way: the robot waits at the power of rest, with the hardware of the
+    /// current alternative on.
     Obstacle {
         /// The time lost.
         delay: Millis,
@@ -94,7 +96,8 @@ pub enum EventKind {
         /// How many units are back.
         units: u8,
     },
-    /// The position was wrong: so much more path to drive before going on at the same place.
+    /// The position was wrong: so much more path to drive before going on at the same place, known
+    /// from then on.
     Odometry {
         /// The additional path.
         extra: Millimetres,
@@ -104,10 +107,10 @@ pub enum EventKind {
 /// Something that happens at random places.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RandomEvent {
-    /// Its name, which also names its stream of random numbers.
+    /// Name of the event, which also names its stream of random numbers.
     pub name: String,
     /// The number expected on 1000 m of path.
     pub per_km: u16,
-    /// What happens: an obstacle or a wrong odometry.
+    /// The kind of the event: an obstacle or a wrong odometry.
     pub kind: EventKind,
 }

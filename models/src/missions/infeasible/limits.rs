@@ -2,14 +2,14 @@
 
 use super::trials::{Found, Plan, Trial, Trials};
 use super::{HEAVIEST, Heavy, Reason, Relaxation};
-use crate::missions::mission::Mission;
+use crate::missions::mission::Unfolded;
 use cotama_core::exact::Objective;
 use std::cmp::Ordering;
 
 /// The reason when every activity has alternatives, its heaviest activities, and the limits raised.
 pub(super) fn raised(
     trials: &mut Trials<'_>,
-    mission: &Mission,
+    mission: &Unfolded,
     as_is: &Trial<'_>,
     steps: u64,
 ) -> (Reason, Vec<Heavy>, Vec<Relaxation>) {

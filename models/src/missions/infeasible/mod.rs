@@ -38,7 +38,7 @@ mod wording;
 
 pub use wording::amount;
 
-use crate::missions::mission::Mission;
+use crate::missions::mission::Unfolded;
 use crate::missions::scenario::Constraint;
 use cotama_core::hardware::Equipment;
 use trials::{Found, Trial, Trials};
@@ -55,19 +55,20 @@ pub const HEAVIEST: usize = 5;
 /// Why a mission has no plan, and what would give it one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Explanation {
-    /// What cannot be met.
+    /// The demand that cannot be met.
     pub reason: Reason,
     /// The activities that cost most on the axis of the reason, in the plan of the least total
     /// there; at most [`HEAVIEST`], the heaviest first. Empty when the reason is not a limit.
     pub heaviest: Vec<Heavy>,
-    /// What suffices, each alone, in the order told in the [module's documentation](self).
+    /// The relaxations, each of which suffices alone, in the order of the
+    /// [module's documentation](self).
     pub relaxations: Vec<Relaxation>,
     /// Whether every search came to its end. Otherwise each relaxation suffices still, but there
     /// may be more of them, and smaller ones.
     pub complete: bool,
 }
 
-/// What cannot be met.
+/// A demand that cannot be met.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reason {
     /// One limit, while the other is kept. Where either could be raised, the one that needs less of
@@ -75,7 +76,7 @@ pub enum Reason {
     Limit {
         /// The axis.
         axis: usize,
-        /// Its limit.
+        /// The limit on the axis.
         limit: u64,
         /// The least total on the axis within the other limit.
         least: u64,
@@ -91,7 +92,7 @@ pub enum Reason {
     NoAlternative {
         /// The index of the first such activity.
         activity: usize,
-        /// What its alternatives need of the kinds of which too few work: each alternative needs at
+        /// The kinds that alternatives need and of which too few work: each alternative needs at
         /// least one of these. Never empty, and none covers another.
         lacks: Vec<Equipment>,
         /// The constraints, with the index of their zone, that exclude some combination of its
@@ -119,9 +120,9 @@ pub struct Heavy {
     pub activity: usize,
     /// The axis.
     pub axis: usize,
-    /// Its cost there.
+    /// Cost of the alternative there.
     pub cost: u32,
-    /// Its part of the total, in thousandths, rounded half up.
+    /// Share of the total, in thousandths, rounded half up.
     pub permille: u16,
 }
 
@@ -162,7 +163,7 @@ pub enum Relaxation {
     LiftConstraint {
         /// The index of the zone.
         zone: usize,
-        /// Which constraint.
+        /// The constraint to lift.
         constraint: Constraint,
     },
     /// Lift several constraints, none of which can be left out.
@@ -203,13 +204,13 @@ pub enum Relaxation {
 ///               490.031 s (+90.031 s, 22.5 %)";
 /// assert_eq!(why.reason.wording(&mission), reason);
 /// ```
-pub fn explain(mission: &Mission, limits: [u64; 2], available: Equipment) -> Option<Explanation> {
+pub fn explain(mission: &Unfolded, limits: [u64; 2], available: Equipment) -> Option<Explanation> {
     explain_within(mission, limits, available, STEPS)
 }
 
 /// [`explain`] with at most so many steps for one search, instead of [`STEPS`].
 pub fn explain_within(
-    mission: &Mission,
+    mission: &Unfolded,
     limits: [u64; 2],
     available: Equipment,
     steps: u64,
@@ -240,7 +241,7 @@ pub fn explain_within(
     Some(Explanation { reason, heaviest, relaxations, complete: trials.complete() })
 }
 
-fn no_alternative(mission: &Mission, available: Equipment) -> Option<Reason> {
+fn no_alternative(mission: &Unfolded, available: Equipment) -> Option<Reason> {
     let activities = &mission.scenario().activities;
     let mut empty = activities.iter().enumerate().filter_map(|(index, activity)| {
         activity.alternatives.iter().all(|it| !available.covers(it.needs)).then_some(index)
@@ -297,7 +298,11 @@ fn lifts(
 
 /// Each kind of hardware of which more units suffice, or units of several kinds without one to
 /// spare.
-fn kept_hardware(trials: &mut Trials<'_>, mission: &Mission, as_is: &Trial<'_>) -> Vec<Relaxation> {
+fn kept_hardware(
+    trials: &mut Trials<'_>,
+    mission: &Unfolded,
+    as_is: &Trial<'_>,
+) -> Vec<Relaxation> {
     let now = as_is.available;
     let kinds = mission.hardware.iter().enumerate();
     let lost: Vec<_> = kinds.filter(|(kind, it)| now.of(*kind) < it.units).collect();
@@ -327,7 +332,7 @@ fn kept_hardware(trials: &mut Trials<'_>, mission: &Mission, as_is: &Trial<'_>) 
 /// mission can end; what is left must be a mission.
 fn dropped_objectives(
     trials: &mut Trials<'_>,
-    mission: &Mission,
+    mission: &Unfolded,
     as_is: &Trial<'_>,
 ) -> Vec<Relaxation> {
     let all = mission.objectives.len();
@@ -358,10 +363,10 @@ impl Relaxation {
     /// mission.
     pub fn apply(
         &self,
-        mission: &Mission,
+        mission: &Unfolded,
         mut limits: [u64; 2],
         mut available: Equipment,
-    ) -> Option<(Mission, [u64; 2], Equipment)> {
+    ) -> Option<(Unfolded, [u64; 2], Equipment)> {
         let mut changed = None;
         match self {
             Self::RaiseLimit { axis, to, .. } => *limits.get_mut(*axis)? = *to,

@@ -2,11 +2,11 @@
 //! out.
 
 use super::{SHARED, STEPS};
-use crate::missions::mission::Mission;
+use crate::missions::mission::Unfolded;
 use crate::missions::scenario::{Constraint, PlannedActivity, Scenario};
 use crate::missions::tables::Alternative;
 use cotama_core::allocation::{Allocator, Answer};
-use cotama_core::exact::{Exact, Item, Objective, Stage};
+use cotama_core::exact::{Objective, Workspace};
 use cotama_core::hardware::Equipment;
 use cotama_core::problem::{Candidate, Problem};
 use std::ops::Range;
@@ -35,7 +35,7 @@ pub(super) struct Plan {
     pub(super) activities: Vec<(usize, [u32; 2])>,
 }
 
-/// What a search found.
+/// The outcome of a search.
 pub(super) enum Found {
     Plan(Plan),
     /// The proof that there is no plan.
@@ -70,7 +70,7 @@ fn way<'m>(
 
 impl<'m> Trials<'m> {
     /// The combinations that are alternatives; a search has at most `each` steps.
-    pub(super) fn new(mission: &'m Mission, each: u64) -> Self {
+    pub(super) fn new(mission: &'m Unfolded, each: u64) -> Self {
         let ways = |activity: &PlannedActivity| {
             let ways = activity
                 .alternatives
@@ -79,13 +79,13 @@ impl<'m> Trials<'m> {
             (activity.objective, ways.collect())
         };
         let activities = mission.scenario().activities.iter().map(ways).collect();
-        // What is not a search costs something too, however few steps a search may take.
+        // Work outside of searches costs something too, however few steps a search may take.
         Self { activities, each, left: SHARED.saturating_mul(each.max(STEPS)), complete: true }
     }
 
     /// Adds the combinations that constraints exclude, for trials without these. Returns the
     /// constraints.
-    pub(super) fn lift_all(&mut self, mission: &'m Mission) -> Vec<(usize, Constraint)> {
+    pub(super) fn lift_all(&mut self, mission: &'m Unfolded) -> Vec<(usize, Constraint)> {
         let mut definition = (**mission).clone();
         for zone in &mut definition.zones {
             zone.require_hardware = None;
@@ -168,10 +168,8 @@ impl<'m> Trials<'m> {
         if [0, 1].into_iter().any(|axis| problem.least(axis) > trial.limits[axis]) {
             return Found::Nothing;
         }
-        let mut items = vec![Item::EMPTY; lists.iter().map(|list| list.len()).sum()];
-        let mut stages = vec![Stage::EMPTY; lists.len()];
-        let mut choices = vec![0; lists.len()];
-        let mut exact = Exact::new(objectives, self.each.min(self.left), &mut items, &mut stages);
+        let (mut workspace, mut choices) = (Workspace::new(), vec![0; lists.len()]);
+        let mut exact = workspace.exact(&problem, objectives, self.each.min(self.left), 0);
         let (found, steps) = match exact.allocate(&problem, &mut choices) {
             Ok(Answer::Planned(planned)) => {
                 // A plan that is not proven best is one still.

@@ -2,7 +2,7 @@
 
 use super::{Heavy, Reason, Relaxation};
 use crate::missions::definition::AXES;
-use crate::missions::mission::Mission;
+use crate::missions::mission::Unfolded;
 use crate::missions::scenario::Constraint;
 use crate::missions::tables::{DURATION, ENERGY};
 use cotama_core::hardware::Equipment;
@@ -37,7 +37,7 @@ fn thousandths(value: u64) -> String {
 
 impl Reason {
     /// The reason in a sentence, without a full stop.
-    pub fn wording(&self, mission: &Mission) -> String {
+    pub fn wording(&self, mission: &Unfolded) -> String {
         match self {
             Self::Limit { axis, limit, least } => {
                 let other = name(usize::from(*axis == DURATION));
@@ -96,7 +96,7 @@ impl Reason {
 
 impl Heavy {
     /// The activity, its place, its cost and its part of the total.
-    pub fn wording(&self, mission: &Mission) -> String {
+    pub fn wording(&self, mission: &Unfolded) -> String {
         format!(
             "{}: {}, {}",
             place(mission, self.activity),
@@ -108,7 +108,7 @@ impl Heavy {
 
 impl Relaxation {
     /// The change as an advice, without a full stop.
-    pub fn wording(&self, mission: &Mission) -> String {
+    pub fn wording(&self, mission: &Unfolded) -> String {
         match self {
             Self::RaiseLimit { axis, from, to } => format!("raise {}", raised(*axis, *from, *to)),
             Self::RaiseLimits { from, to } => {
@@ -167,7 +167,7 @@ fn percent(permille: u128) -> String {
     }
 }
 
-fn constraint(mission: &Mission, zone: usize, which: Constraint) -> String {
+fn constraint(mission: &Unfolded, zone: usize, which: Constraint) -> String {
     let which = match which {
         Constraint::Hardware => "hardware",
         Constraint::Tio => "option",
@@ -178,21 +178,21 @@ fn constraint(mission: &Mission, zone: usize, which: Constraint) -> String {
     )
 }
 
-fn kept(mission: &Mission, kind: usize, units: u8) -> String {
+fn kept(mission: &Unfolded, kind: usize, units: u8) -> String {
     format!("{units} {}", mission.hardware.get(kind).map_or("", |it| &it.name))
 }
 
-fn units(mission: &Mission, units: Equipment) -> String {
+fn units(mission: &Unfolded, units: Equipment) -> String {
     let kinds = (0..mission.hardware.len()).filter(|&kind| units.of(kind) > 0);
     let kinds: Vec<_> = kinds.map(|kind| kept(mission, kind, units.of(kind))).collect();
     listed(&kinds)
 }
 
-fn id(mission: &Mission, activity: usize) -> &str {
+fn id(mission: &Unfolded, activity: usize) -> &str {
     mission.scenario().activities.get(activity).map_or("", |it| &it.id)
 }
 
-fn place(mission: &Mission, activity: usize) -> String {
+fn place(mission: &Unfolded, activity: usize) -> String {
     let Some(it) = mission.scenario().activities.get(activity) else { return String::new() };
     let objective = mission.objectives.get(it.objective).map_or("", |objective| &objective.id);
     let place = if it.x_start < it.x_end {

@@ -6,13 +6,13 @@ use super::{
     STOPPED, WAIT, WARN, ends_with, kinds,
 };
 use crate::missions::definition::{Does, Objective};
-use cotama_core::net::{Arc, Defect, EventId, Ignored, Net, OutputId, PlaceId, Transition};
+use cotama_core::net::{Arc, EventId, Ignored, Net, NetError, OutputId, PlaceId, Transition};
 use cotama_core::player::code::plus;
 use cotama_core::player::{Packed, words};
 use cotama_core::system::{Component, System};
 use std::fmt;
 
-/// What was looked at.
+/// The size of what was explored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Explored {
     /// Reachable markings: with one token, as many as places.
@@ -21,21 +21,21 @@ pub struct Explored {
     pub firings: usize,
 }
 
-/// What is wrong with a global supervisor. Places and transitions are named as in the net; the
-/// place of an objective has its id.
+/// A defect of a global supervisor. Places and transitions are named as in the net; the place of an
+/// objective has its id.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// It is not a supervisor of these objectives at all.
+    /// The net is no supervisor of these objectives at all.
     Objectives(MissionNetError),
-    /// Its lists do not fit together, or it is too large.
-    Defect(Defect),
+    /// The lists of the net do not fit together, or it is too large.
+    Defect(NetError),
     /// An objective, or one of the places of every supervisor, has no place.
     Missing(String),
     /// There is not exactly one token.
     Tokens {
         /// After this transition; `None`: at the start.
         after: Option<String>,
-        /// So many.
+        /// Tokens at the start, or after the firing.
         tokens: u32,
     },
     /// The robot never comes here.
@@ -71,7 +71,7 @@ pub enum Fault {
     Says {
         /// The transition.
         transition: String,
-        /// What it has to say.
+        /// The outputs expected, by name.
         expected: Vec<String>,
     },
     /// A transition fires by itself, in a time, or needs a token that it leaves.
@@ -173,7 +173,7 @@ pub fn check(net: &Net<'_>, objectives: &[Objective]) -> Result<Explored, Vec<Fa
     }
 }
 
-/// What one token can do. As there is one, a marking is the place that it marks.
+/// The moves of one token. As there is one, a marking is the place that it marks.
 struct Graph {
     reached: Vec<bool>,
     /// From, to, and the position of the transition.
@@ -202,7 +202,7 @@ fn explore<const W: usize>(net: &Net<'_>) -> Result<Graph, Fault> {
         for entry in code.entries.iter().filter(|entry| code.holds(&marking, &entry.need)) {
             let number = usize::from(entry.transition);
             let transition = &net.transitions[number];
-            // It is enabled with one token, so it takes one at most.
+            // An enabled transition has one token to take, so it takes one at most.
             let tokens = (1 - weight(transition.take)).saturating_add(weight(transition.give));
             if tokens != 1 {
                 return Err(Fault::Tokens { after: Some(transition.name.to_owned()), tokens });
@@ -218,8 +218,8 @@ fn explore<const W: usize>(net: &Net<'_>) -> Result<Graph, Fault> {
     Ok(graph)
 }
 
-/// Where the mission leads, as positions of places: `Wait`, the objectives, `Done`; then `Security`
-/// and `Safe`.
+/// Returns the path of the mission, as positions of places: `Wait`, the objectives, `Done`; then
+/// `Security` and `Safe`.
 fn walk(net: &Net<'_>, objectives: &[Objective]) -> Result<Vec<usize>, Fault> {
     let ids = objectives.iter().map(|it| it.id.as_str());
     let names = [WAIT].into_iter().chain(ids).chain([DONE, SECURITY, SAFE]);

@@ -25,7 +25,7 @@ pub use checked::{Explored, Fault, check};
 
 use crate::missions::definition::{Does, Objective};
 use cotama_core::net::owned::{OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_core::net::{Arc, Defect, EventId, OutputId, PlaceId};
+use cotama_core::net::{Arc, EventId, NetError, OutputId, PlaceId};
 
 /// The place before the objectives: no mission yet.
 pub const WAIT: &str = "Wait";
@@ -49,17 +49,17 @@ pub enum MissionNetError {
     Empty,
     /// There are more than [`MAX_OBJECTIVES`].
     TooMany {
-        /// So many.
+        /// Number of objectives.
         objectives: usize,
     },
-    /// It is not said what an objective does: the mission is not supervised.
+    /// The kind of an objective is missing: the mission is not supervised.
     NotSupervised {
-        /// Its position.
+        /// Position of the objective.
         objective: usize,
     },
     /// An objective has the name of another one, or one of [`RESERVED`].
     Name {
-        /// Its position.
+        /// Position of the objective.
         objective: usize,
     },
     /// Ids cannot count the parts of the net.
@@ -89,8 +89,8 @@ impl std::fmt::Display for MissionNetError {
 
 impl std::error::Error for MissionNetError {}
 
-impl From<Defect> for MissionNetError {
-    fn from(_: Defect) -> Self {
+impl From<NetError> for MissionNetError {
+    fn from(_: NetError) -> Self {
         Self::TooLong // adding to a net fails for no other reason
     }
 }
@@ -107,16 +107,16 @@ const EVENTS: [(&str, &str); 7] = [
     ("wait_over", "The time to wait is over."),
 ];
 
-/// Its outputs, in the order of [`global`](crate::cotama::global).
+/// The outputs, in the order of [`global`](crate::cotama::global).
 const OUTPUTS: [&str; 5] = ["start_drive", "gs_abort", "halt", "alarm", "wifi_warning"];
 
 const GLOBAL_EVENT: EventId = EventId(0);
 const MISSION_RECEIVED: EventId = EventId(2);
 const STOPPED: EventId = EventId(5);
 const START_DRIVE: OutputId = OutputId(0);
-/// What going into security says: the drive is aborted, and motion is over.
+/// Outputs emitted on entering security: the drive is aborted, and motion is over.
 const HALT: [OutputId; 2] = [OutputId(1), OutputId(2)];
-/// What is said once the robot stands.
+/// Outputs emitted once the robot stands.
 const WARN: [OutputId; 2] = [OutputId(3), OutputId(4)];
 
 /// The event with which an objective ends.
@@ -129,7 +129,7 @@ const fn ends_with(does: Does) -> EventId {
     }
 }
 
-/// What each objective does, in their order.
+/// Returns the kind of each objective, in their order.
 fn kinds(objectives: &[Objective]) -> Result<Vec<Does>, MissionNetError> {
     let kind = |(objective, it): (usize, &Objective)| {
         it.does.as_ref().map(|does| does.value).ok_or(MissionNetError::NotSupervised { objective })

@@ -22,7 +22,7 @@ pub(super) fn ids<T>(entries: &[Entry<T>]) -> impl Iterator<Item = &str> + Clone
     entries.iter().map(|entry| entry.id.as_str())
 }
 
-/// What faults refer to, as far as it could be read.
+/// The names that faults refer to, as far as they could be read.
 pub(super) struct Names<'n> {
     pub(super) path_length: Option<Millimetres>,
     pub(super) zones: &'n [Entry<Zone>],

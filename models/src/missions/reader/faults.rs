@@ -4,10 +4,11 @@ use super::entry::{Entry, Names, ids};
 use super::fields::{self, Fields, Sink};
 use super::incidents;
 use super::moments::{self, on_the_path};
+use super::recorded;
 use crate::missions::definition::{Definition, Hardware, Zone};
 use crate::missions::diagnostic::{Diagnostic, MissionErrors};
 use crate::missions::faults::{
-    Event, EventKind, FORMAT, Faults, Incident, Moment, PowerError, RandomEvent, Run,
+    Event, EventKind, FORMAT, Faults, FaultsFile, Incident, Moment, PowerError, RandomEvent, Run,
 };
 use crate::missions::known::{
     AT_LEAST_ZERO, EVENTS, INCIDENTS, PER_KM, PERIODS, POSITIVE, POWER_ERRORS, RANDOM_EVENTS, UNITS,
@@ -15,7 +16,8 @@ use crate::missions::known::{
 use cotama_core::units::{Millimetres, Millis};
 
 impl Faults {
-    /// Reads a file of faults for a mission. `source_name` is its name in messages.
+    /// Reads the faults of a file for a mission; what else it notes, [`FaultsFile::parse`] reads.
+    /// `source_name` is its name in messages.
     ///
     /// # Errors
     /// All errors of the file, with their places.
@@ -35,6 +37,27 @@ impl Faults {
         text: &str,
         mission: &Definition,
     ) -> Result<Self, MissionErrors> {
+        FaultsFile::parse(source_name, text, mission).map(|it| it.faults)
+    }
+}
+
+impl FaultsFile {
+    /// The mission that a file names, without which nothing else of it can be read.
+    pub fn mission_of(text: &str) -> Option<String> {
+        let file: toml::Table = text.parse().ok()?;
+        let name = file.get("expected")?.get("mission")?.as_str()?;
+        Some(name.to_owned())
+    }
+
+    /// Reads a file of faults for a mission, with all that it says.
+    ///
+    /// # Errors
+    /// All errors of the file, with their places.
+    pub fn parse(
+        source_name: &str,
+        text: &str,
+        mission: &Definition,
+    ) -> Result<Self, MissionErrors> {
         let sink = Sink::default();
         let zone = |it: &Zone| Entry { id: it.id.clone(), item: Some(it.clone()) };
         let zones: Vec<_> = mission.zones.iter().map(zone).collect();
@@ -43,13 +66,17 @@ impl Faults {
         let (path_length, supervised) =
             (Some(mission.path_length), Some(mission.supervision.is_some()));
         let names = Names { path_length, zones: &zones, hardware: &hardware, supervised };
-        let faults = fields::document(text, &sink, FORMAT, |mut root| {
+        let file = fields::document(text, &sink, FORMAT, |mut root| {
             let faults = read(&mut root, &names);
+            let planner = root.optional_table("planner").map(|it| it.map(recorded::planner));
+            let expected = root.optional_table("expected").map(|it| it.map(recorded::expected));
             root.finish();
-            faults
+            // Tables that cannot be read were reported.
+            let (planner, expected) = (planner.ok()?.flatten(), expected.ok()?.flatten());
+            Some(Self { faults: faults?, planner, expected })
         });
-        match faults {
-            Some(faults) if sink.is_empty() => Ok(faults),
+        match file {
+            Some(file) if sink.is_empty() => Ok(file),
             _ => Err(MissionErrors::new(source_name, text, sink.into_diagnostics())),
         }
     }

@@ -4,14 +4,19 @@
 //! A method returns `None` when what it was asked for is absent or wrong, and has then reported it;
 //! the caller reads everything first and only then gives up.
 
+mod json;
 mod more;
+mod units;
 
 use crate::missions::diagnostic::{Diagnostic, Spanned};
 use crate::missions::known::{DOCUMENTATION, ID_LENGTHS, MAX_ENTRIES};
 use crate::names::{MAX_ID, nearest, quoted, unknown};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::ops::{Range, RangeInclusive};
 use toml::de::{DeTable, DeValue};
+
+pub(crate) use json::document_of_either;
+use units::{in_its_unit, is_without_unit, unit, values};
 
 type Node<'t> = toml::Spanned<DeValue<'t>>;
 
@@ -21,24 +26,28 @@ const MAX_BYTES: usize = 16 << 20;
 /// With more syntax errors the text is hardly meant to be TOML.
 const MANY_SYNTAX_ERRORS: usize = 4;
 
-/// What is wrong was reported.
+/// Marks an error that was already reported.
 pub(crate) struct Reported;
 
-/// Where errors are collected.
+/// Collects the errors.
 #[derive(Default)]
-pub(crate) struct Sink(RefCell<Vec<Diagnostic>>);
+pub(crate) struct Sink {
+    errors: RefCell<Vec<Diagnostic>>,
+    /// Whether the file is JSON, and speaks of objects and lists.
+    is_json: Cell<bool>,
+}
 
 impl Sink {
     pub(crate) fn report(&self, diagnostic: Diagnostic) {
-        self.0.borrow_mut().push(diagnostic);
+        self.errors.borrow_mut().push(diagnostic);
     }
 
     pub(crate) fn is_empty(&self) -> bool {
-        self.0.borrow().is_empty()
+        self.errors.borrow().is_empty()
     }
 
     pub(crate) fn into_diagnostics(self) -> Vec<Diagnostic> {
-        self.0.into_inner()
+        self.errors.into_inner()
     }
 }
 
@@ -70,12 +79,23 @@ pub(crate) fn document<T>(
     if !errors.is_empty() {
         return None;
     }
-    let mut fields = Fields::new(sink, root.get_ref(), 0..0, "the file");
+    read_root(root.get_ref(), sink, format, read)
+}
+
+/// Reads what has the wanted format.
+fn read_root<T>(
+    root: &DeTable<'_>,
+    sink: &Sink,
+    format: &'static str,
+    read: impl FnOnce(Fields<'_>) -> Option<T>,
+) -> Option<T> {
+    let mut fields = Fields::new(sink, root, 0..0, "the file");
     fields.format = format;
     let found = fields.text("format");
     if let Some(found) = found.filter(|found| found.value != format) {
         let message = format!("unknown format {}", quoted(&found.value));
-        let help = format!("this program reads `format = \"{format}\"` here");
+        let entry = sink.entry("format", &format!("\"{format}\""));
+        let help = format!("this program reads `{entry}` here");
         sink.report(Diagnostic::new(found.span, message, "not known").help(help));
         return None;
     }
@@ -90,7 +110,7 @@ pub(crate) struct Fields<'t> {
     what: String,
     /// The most entries of a list.
     most_entries: usize,
-    /// What a file must say that its format is; nothing in tables below the root.
+    /// The value that `format` must have; empty in tables below the root.
     format: &'static str,
     asked: Vec<&'static str>,
     missing: Vec<&'static str>,
@@ -107,7 +127,7 @@ impl<'t> Fields<'t> {
         self.sink.report(diagnostic);
     }
 
-    /// Where the value of a key stands, or else the table.
+    /// Returns the position of a key's value, or else of the table.
     pub(crate) fn span_of(&self, key: &str) -> Range<usize> {
         self.entries.get(key).map_or_else(|| self.span.clone(), toml::Spanned::span)
     }
@@ -133,9 +153,10 @@ impl<'t> Fields<'t> {
         let found = match node.get_ref() {
             DeValue::Float(float) => format!("the float {}", quoted(float.as_str())),
             DeValue::Integer(_) => "an integer".into(),
-            DeValue::Array(_) => "an array".into(),
-            other => format!("a {}", other.type_str()),
+            DeValue::Array(_) => self.sink.named("an array").into(),
+            other => self.sink.named(&format!("a {}", other.type_str())).into(),
         };
+        let expected = self.sink.named(expected);
         let message = format!("`{key}` must be {expected}, not {found}");
         let help = match node.get_ref() {
             DeValue::Float(_) => "all quantities are whole numbers of mm, mm/s, ms, mW, mJ and g",
@@ -405,8 +426,11 @@ impl<'t> Fields<'t> {
             let message = format!("missing key `{key}` in {}", self.what);
             let label = format!("`{key}` is not here");
             let help = match *key {
+                "format" if self.sink.is_json.get() => {
+                    format!("add `\"format\": \"{}\"`", self.format)
+                }
                 "format" => format!("add the line `format = \"{}\"`", self.format),
-                _ => format!("add `{key}`"),
+                _ => format!("add `{key}`{}", values(key)),
             };
             self.report(Diagnostic::new(self.span.clone(), message, label).help(help));
         }
@@ -429,14 +453,20 @@ impl<'t> Fields<'t> {
                 let _ = self.text_of(name, node);
                 continue;
             }
-            let absent = self.asked.iter().copied().filter(|asked| !self.has(asked));
-            let near = nearest(name, absent);
+            let absent = || self.asked.iter().copied().filter(|asked| !self.has(asked));
+            let in_unit =
+                |known| Some((known, in_its_unit(name, known, node.get_ref(), self.sink)?));
+            let in_unit = absent().find_map(in_unit);
+            let near = in_unit.as_ref().map(|it| it.0).or_else(|| nearest(name, absent()));
+            let near = near.or_else(|| absent().find(|known| is_without_unit(name, known)));
             // A misspelt key is one error, not two.
             missing.retain(|key| Some(*key) != near);
             let message = format!("unknown key {} in {}", quoted(name), self.what);
             let (message, help) = match near {
                 Some(near) => {
-                    (format!("{message}; did you mean `{near}`?"), format!("write `{near}`"))
+                    let plain = || format!("write `{near}`{}", unit(near));
+                    let help = in_unit.map_or_else(plain, |it| it.1);
+                    (format!("{message}; did you mean `{near}`?"), help)
                 }
                 None => (message, format!("known keys here: {}", self.asked.join(", "))),
             };

@@ -147,7 +147,7 @@ fn rounding(mut rounding: Fields<'_>) {
     rounding.finish();
 }
 
-/// What plans are chosen for.
+/// Reads the criterion by which plans are chosen.
 fn planned_for(mut plan: Fields<'_>) -> Option<PlannedFor> {
     let name = plan.text("objective");
     let known = OBJECTIVES.map(|it| it.0);
@@ -267,7 +267,7 @@ fn tio(
     Entry { item: complete(), id }
 }
 
-/// What an option takes that says so itself: one that receives, delivers or waits.
+/// Reads time and power of an option that gives them itself: one that receives, delivers or waits.
 fn own_standing(fields: &mut Fields<'_>, task: Option<Task>) -> Result<Option<Standing>, Reported> {
     if !matches!(task, Some(Task::Receive | Task::Deliver | Task::Wait)) {
         return Ok(None);

@@ -1,5 +1,5 @@
-//! What a supervised mission says beyond a plain one: who decides, what each objective does for the
-//! supervisor, and which modules a moving option runs.
+//! The fields of a supervised mission beyond those of a plain one: its supervision, the kind of
+//! each objective, and the modules of each moving option.
 
 use super::entry::Entry;
 use super::fields::{Fields, Reported};
@@ -14,12 +14,12 @@ use cotama_core::hardware::Equipment;
 pub(super) struct Supervised(Result<Option<(Supervision, bool)>, Reported>);
 
 impl Supervised {
-    /// `None` when it is not known.
+    /// Returns whether the mission is supervised; `None` when that could not be read.
     pub(super) fn known(&self) -> Option<bool> {
         self.0.as_ref().ok().map(Option::is_some)
     }
 
-    /// Who decides, if anyone, and whether what returns is used again.
+    /// Returns the supervision, if any, and whether modules that return are used again.
     pub(super) fn get(self) -> Result<Option<(Supervision, bool)>, Reported> {
         self.0
     }

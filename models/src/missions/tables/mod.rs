@@ -10,7 +10,7 @@
 //! let mut lists = [&[][..]; 1];
 //! let rest = Rest::Travel(Millimetres(10_000));
 //! let last = &ACTIVITIES[16..];
-//! let activities = remaining(last, rest, AVAILABLE, &mut candidates, &mut lists).unwrap();
+//! let activities = remaining(last, Some(rest), AVAILABLE, &mut candidates, &mut lists).unwrap();
 //! let problem = Problem::new(activities, LIMITS, ORDER).unwrap();
 //! assert_eq!(problem.combinations(), Some(21));
 //! ```
@@ -59,7 +59,7 @@ pub struct Alternative {
     pub quality: u32,
 }
 
-/// What is left of an activity.
+/// The rest of an activity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Rest {
     /// So much path, at the speed of the alternative.
@@ -71,11 +71,11 @@ pub enum Rest {
 /// An activity and the ways to do it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Activity<'a> {
-    /// Where it starts on the path.
+    /// Start on the path.
     pub x_start: Millimetres,
-    /// Where it ends on the path; the same place when it does not travel.
+    /// End on the path; the same place when the activity does not travel.
     pub x_end: Millimetres,
-    /// Its alternatives; the index of each is its [`Candidate::id`].
+    /// The alternatives; the index of each is its [`Candidate::id`].
     pub alternatives: &'a [Alternative],
 }
 
@@ -157,7 +157,7 @@ impl Activity<'_> {
         self.x_start.0 < self.x_end.0
     }
 
-    /// Its length; zero when it does not travel.
+    /// Returns the length; zero when the activity does not travel.
     #[must_use]
     pub const fn length(&self) -> Millimetres {
         Millimetres(self.x_end.0.saturating_sub(self.x_start.0))
@@ -175,13 +175,13 @@ impl Activity<'_> {
 pub enum RemainingError {
     /// The available hardware covers no alternative of this activity, the first such one.
     NoCandidates {
-        /// Its position in the given activities.
+        /// Position in the given activities.
         activity: usize,
     },
     /// A cost or a quality of this activity does not fit 32 bits, or it has more than 65,536
     /// alternatives.
     TooLarge {
-        /// Its position in the given activities.
+        /// Position in the given activities.
         activity: usize,
     },
     /// The buffer of candidates or that of lists is too small; see [`buffer_sizes`].
@@ -224,8 +224,8 @@ pub const fn buffer_sizes(activities: &[Activity<'_>]) -> (usize, usize) {
 
 /// The candidates of a remaining mission, written into the caller's memory.
 ///
-/// `activities` start with the current one, of which `first` is left. Alternatives that need more
-/// than `available` are left out. The lists returned are what
+/// `activities` start with the current one, of which `first` is left, or all of it if that is
+/// `None`. Alternatives that need more than `available` are left out. The lists returned are what
 /// [`Problem::new`](cotama_core::problem::Problem::new) takes; [`Candidate::id`] is the index of
 /// the alternative in its activity.
 ///
@@ -243,12 +243,12 @@ pub const fn buffer_sizes(activities: &[Activity<'_>]) -> (usize, usize) {
 /// let (mut candidates, mut lists) = ([EMPTY; 21], [&[][..]; 1]);
 /// let left = AVAILABLE.without(1, 2);
 /// let rest = Rest::Travel(Millimetres(10_000));
-/// let lists = remaining(last, rest, left, &mut candidates, &mut lists).unwrap();
+/// let lists = remaining(last, Some(rest), left, &mut candidates, &mut lists).unwrap();
 /// assert_eq!((lists[0].len(), lists[0][0].cost), (4, [24_390, 224_973]));
 /// ```
 pub fn remaining<'c, 'l>(
     activities: &[Activity<'_>],
-    first: Rest,
+    first: Option<Rest>,
     available: Equipment,
     mut candidates: &'c mut [Candidate<2>],
     lists: &'l mut [&'c [Candidate<2>]],
@@ -260,7 +260,10 @@ pub fn remaining<'c, 'l>(
             if !available.covers(alternative.needs) {
                 continue;
             }
-            let rest = if index == 0 { first } else { activity.whole(alternative) };
+            let rest = match first {
+                Some(rest) if index == 0 => rest,
+                _ => activity.whole(alternative),
+            };
             let candidate = u16::try_from(id).ok().and_then(|id| alternative.candidate(rest, id));
             let place = candidates.get_mut(count).ok_or(RemainingError::BufferTooSmall)?;
             *place = candidate.ok_or(RemainingError::TooLarge { activity: index })?;

@@ -53,7 +53,7 @@ cotama_core::net! {
         events {
             /// The next waypoint is consistent.
             Consistent,
-            /// It is not, or there is none.
+            /// The map is not consistent, or there is none.
             Inconsistent,
             /// A behaviour becomes active.
             Begin,

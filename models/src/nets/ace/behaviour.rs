@@ -1,8 +1,9 @@
 //! Which of the five behaviours is active, and whether the path planner runs.
 //!
-//! *Print*: the behaviours, and that the planner is off in `FollowPerson` (the way to the person is
-//! taken to be free) and in Idle. *Reading*: each behaviour is forwarded as an event of its own;
-//! `Released` is the end of one.
+//! *Print*: the behaviours, that Idle is the one by default (B.4.1), and that the planner is off in
+//! `FollowPerson`, as the way to the person is taken to be free (B.4.3). *Reading*: the planner is
+//! off in Idle too, where no motion is commanded; each behaviour is forwarded as an event of its
+//! own; `Released` is the end of one.
 //!
 //! | behaviour | does |
 //! | --- | --- |
@@ -35,13 +36,13 @@ cotama_core::net! {
         places {
             /// The robot stands.
             Idle: 1,
-            /// It goes where the map ends.
+            /// The robot goes where the map ends.
             Explore,
-            /// It follows somebody.
+            /// The robot follows a person.
             FollowPerson,
-            /// It goes where somebody pointed.
+            /// The robot goes where a person pointed.
             GoInDirection,
-            /// It goes to a known goal.
+            /// The robot goes to a known goal.
             ReachGoal,
         }
         flags {

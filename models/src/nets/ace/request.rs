@@ -1,4 +1,4 @@
-//! What a subsystem that asks for a behaviour is told: one such net for each subsystem.
+//! The answers to a subsystem that asks for a behaviour: one such net for each subsystem.
 //!
 //! *Reading*: in the dissertation a trigger that is refused is not heard of again. Here every
 //! trigger is answered (accepted, refused or replaced by a newer one), so the asker knows where it
@@ -30,25 +30,25 @@ cotama_core::net! {
     /// One subsystem's request for a behaviour, from ACE.
     mod ace_request {
         places {
-            /// It wants nothing.
+            /// The subsystem wants nothing.
             Silent: 1,
-            /// It has asked and was not answered yet.
+            /// The subsystem has asked and was not answered yet.
             Pending,
-            /// Its behaviour is active.
+            /// The behaviour of the subsystem is active.
             Active,
-            /// It was refused, and may ask again.
+            /// The subsystem was refused, and may ask again.
             Refused,
         }
         events {
             /// The subsystem wants a behaviour.
             Trigger,
-            /// It gets it.
+            /// The subsystem gets its behaviour.
             Accepted,
             /// Another subsystem is more important.
             Refused,
             /// Another subsystem has taken the robot over.
             Displaced,
-            /// Its behaviour is completed or has failed.
+            /// The behaviour of the subsystem is completed or has failed.
             Ended,
         }
         outputs {
@@ -60,7 +60,7 @@ cotama_core::net! {
         transitions {
             ask       on Trigger:   Silent => Pending emit Ask;
             ask_again on Trigger:   Refused => Pending emit Ask;
-            /// It may replace its own behaviour.
+            /// A subsystem may replace its own behaviour.
             change    on Trigger:   Active => Pending emit Ask;
             /// The newest wins.
             replace   on Trigger:   Pending => Pending emit Replaced & Ask;

@@ -2,11 +2,11 @@
 //!
 //! *Print* (figure B.4): in INACTIVE and ACTIVE a trigger of a subsystem leads to PRIORITYCHECK. If
 //! its priority is at least that of the subsystem whose behaviour is active, its own becomes
-//! active. When a behaviour has completed or failed, the machine is INACTIVE and the behaviour is
-//! Idle.
+//! active. Idle is the behaviour where one has ended and nothing else is asked for (B.4.1).
 //!
 //! *Reading*:
 //!
+//! - When a behaviour has completed or failed, the machine is INACTIVE.
 //! - The priorities, which are not printed: [`Emergency`](Place::Emergency) over traversability
 //!   over interaction over vision over navigation. They are all different. `at least` lets a
 //!   subsystem replace its own behaviour; between two of equal priority it would let them take

@@ -39,9 +39,9 @@ use cotama_core::net::{Arc, PlaceId};
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Family {
-    /// Its name.
+    /// Name of the family.
     pub name: &'static str,
-    /// What it is.
+    /// Description of the family.
     pub description: &'static str,
     /// The smallest `n`.
     pub least: u32,

@@ -1,7 +1,7 @@
 //! From what a file says to an instance: nothing is missing, and everything fits together.
 
 use super::context::{Context, Step};
-use super::reader::{Draft, DraftPlan, DraftRole, DraftTask, List, Skip};
+use super::draft::{Draft, DraftPlan, DraftRole, DraftTask, List, Skip};
 use super::{FORMAT, Instance, InstancePlan, InstanceTask, Kind, MAX_INSTANCE_ENTRIES};
 use crate::missions::Spanned;
 use crate::names::quoted;
@@ -11,7 +11,7 @@ use std::ops::Range;
 
 const NAMES_HELP: &str = "give each a name of its own";
 
-/// What was read as an instance, if nothing of it is missing; what does not fit is said.
+/// Turns a draft into an instance, if nothing of it is missing; reports the values that do not fit.
 pub(super) fn complete(all: &mut Context, draft: Draft) -> Option<Instance> {
     let whole = draft.span.clone();
     if let Some(format) = draft.format.as_ref().filter(|it| it.value != FORMAT) {
@@ -100,7 +100,7 @@ fn distinct<'n>(
     }
 }
 
-/// What tasks are checked against.
+/// The figures that tasks are checked against.
 struct Checked {
     robots: usize,
     kind: Kind,

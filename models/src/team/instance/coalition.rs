@@ -4,7 +4,7 @@ use super::single::{Read, assigned};
 use super::solve::{Assignment, Done, PlanProof, Proof, Reason, Verdict};
 use super::{Instance, InstancePlan, InstanceTask};
 use cotama_core::allocation::MemoryError;
-use cotama_core::team::{Combine, Cost, Costs, Memory, Plan, Task, Unassigned, bottleneck};
+use cotama_core::team::{AssignmentError, Combine, Cost, Costs, Memory, Plan, Task, bottleneck};
 
 /// A plan with its robots, or without any, and why it costs no less.
 struct Staffed {
@@ -64,13 +64,13 @@ impl Instance {
         self.staffed(task, plan, &table, result, &memory)
     }
 
-    /// What came of a plan; with the largest cost where that is what counts.
+    /// Returns the outcome of a plan; with the largest cost where that one counts.
     fn staffed(
         &self,
         task: &InstanceTask,
         plan: &InstancePlan,
         table: &Costs<'_>,
-        result: Result<Option<Cost>, Unassigned>,
+        result: Result<Option<Cost>, AssignmentError>,
         memory: &dyn Read,
     ) -> Result<Staffed, MemoryError> {
         let conflict = || (0..plan.roles.len()).filter(|it| memory.in_conflict(*it));
@@ -81,13 +81,13 @@ impl Instance {
         };
         let largest = match result {
             Ok(largest) => largest,
-            Err(Unassigned::Infeasible { .. }) => {
+            Err(AssignmentError::Infeasible { .. }) => {
                 let robots = capable(table);
                 let proof = PlanProof::Impossible { roles: conflict, robots };
                 return Ok(Staffed { robots: None, proof });
             }
-            Err(Unassigned::Memory(error)) => return Err(error),
-            Err(error @ Unassigned::TooLarge) => {
+            Err(AssignmentError::Memory(error)) => return Err(error),
+            Err(error @ AssignmentError::TooLarge) => {
                 debug_assert!(false, "{error}: 64 bits suffice for costs to 10^9");
                 let lacks = MemoryError { what: "amounts", needed: usize::MAX, given: 0 };
                 return Err(lacks);
@@ -110,7 +110,7 @@ impl Instance {
 }
 
 impl PlanProof {
-    /// What the task costs by this plan, in parts; none where it cannot be carried out.
+    /// Returns the cost of the task by this plan, in parts; `None` where it cannot be carried out.
     pub const fn cost(&self) -> Option<u64> {
         match self {
             Self::Prices { cost, .. } | Self::Threshold { cost, .. } => Some(*cost),

@@ -1,13 +1,13 @@
-//! What is wrong with the fields of an instance, each with its path.
+//! Errors in the fields of an instance, each with its path.
 
-use super::json::{Broken, Json, Shape};
+use crate::json::{Broken, Json, Shape};
 use crate::missions::{Diagnostic, Spanned};
 use crate::names::{nearest, quoted};
 use std::fmt::Write;
 use std::ops::Range;
 
 /// So many errors are kept while a file is read.
-const KEPT: usize = 10_000;
+const KEPT: usize = 100_000;
 
 /// A step of a path.
 #[derive(Clone, Copy, Debug)]
@@ -16,12 +16,33 @@ pub(super) enum Step {
     Number(usize),
 }
 
-/// Where the reader is, and the errors so far.
+/// The whole number that a number of JSON is, however it is written: `2000.0` and `2e3` are 2000.
+fn whole_number(text: &str) -> Option<i64> {
+    let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let fraction = fraction.trim_end_matches('0');
+    // So many digits behind the point become whole, and so many zeros follow.
+    let zeros = exponent.parse::<i64>().ok()?.checked_sub(i64::try_from(fraction.len()).ok()?)?;
+    let digits = [whole, fraction].concat();
+    let number: i64 = if zeros < 0 {
+        let kept = digits.len().checked_sub(usize::try_from(-zeros).ok()?)?;
+        let (kept, cut) = digits.split_at_checked(kept)?;
+        let is_whole = cut.bytes().all(|it| it == b'0');
+        let kept = if matches!(kept, "" | "-") { "0" } else { kept };
+        is_whole.then(|| kept.parse().ok())??
+    } else {
+        digits.parse().ok()?
+    };
+    let power = 10_i64.checked_pow(u32::try_from(zeros.max(0)).ok()?);
+    if number == 0 { Some(0) } else { number.checked_mul(power?) }
+}
+
+/// The path of the reader, and the errors so far.
 #[derive(Debug, Default)]
 pub(super) struct Context {
     pub(super) errors: Vec<Diagnostic>,
     path: Vec<Step>,
-    /// What could not be read is not missing.
+    /// Whether a value could not be read, which is then not reported as missing.
     pub(super) unread: bool,
 }
 
@@ -134,11 +155,21 @@ impl Context {
         }
         let start = json.start();
         let text = json.number()?;
-        let number = text.parse().ok().filter(|it| (least..=most).contains(it));
-        if number.is_none() {
-            let help = format!("a whole number from {least} to {most} is needed");
-            let why = if text.contains(['.', 'e', 'E']) {
-                "is not written as a whole number"
+        let number = whole_number(text);
+        let within = number.and_then(|it| u32::try_from(it).ok());
+        let within = within.filter(|it| (least..=most).contains(it));
+        if within.is_none() {
+            let is_fraction = number.is_none() && text.contains(['.', 'e', 'E']);
+            let help = if is_fraction {
+                format!(
+                    "whole numbers from {least} to {most} are needed; multiply all by the same \
+                     factor"
+                )
+            } else {
+                format!("a whole number from {least} to {most} is needed")
+            };
+            let why = if is_fraction {
+                "is not a whole number"
             } else if text.starts_with('-') {
                 "is below 0"
             } else {
@@ -146,7 +177,7 @@ impl Context {
             };
             self.wrong(json.since(start), &format!("{} {why}", quoted(text)), &help);
         }
-        Ok(number)
+        Ok(within)
     }
 
     /// Whether the next value has this shape; if not, it is passed over.
@@ -160,5 +191,32 @@ impl Context {
         let what = format!("{} stands where {} is needed", shape.words(), wanted.words());
         self.wrong(json.since(start), &what, "");
         Ok(false)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::whole_number;
+
+    #[test]
+    fn a_number_is_whole_however_it_is_written() {
+        for (text, number) in [
+            ("2000", Some(2000)),
+            ("2000.0", Some(2000)),
+            ("2e3", Some(2000)),
+            ("2.5e1", Some(25)),
+            ("250e-1", Some(25)),
+            ("0.0", Some(0)),
+            ("0e99999", Some(0)),
+            ("-1.0", Some(-1)),
+            ("2.5", None),
+            ("25e-1", None),
+            ("0.4", None),
+            ("4e-1", None),
+            ("1e30", None),
+            ("1e-99999999999999999999", None),
+        ] {
+            assert_eq!(whole_number(text), number, "{text}");
+        }
     }
 }

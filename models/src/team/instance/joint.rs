@@ -3,7 +3,7 @@
 use super::Instance;
 use super::solve::{Assignment, Done, Proof, Reason, Verdict};
 use cotama_core::allocation::MemoryError;
-use cotama_core::team::joint::{Column, Joint, JointMemory, Level, Open, Outcome, Slot, Way};
+use cotama_core::team::winners::{Outcome, Workspace};
 use cotama_core::team::{Combine, Cost, Team};
 
 /// Coalitions that are remembered at once: so many a task, at least and at most so many in all.
@@ -27,21 +27,8 @@ impl Instance {
         steps: u64,
     ) -> Result<Assignment, MemoryError> {
         let columns = self.tasks.len().saturating_mul(COLUMNS).clamp(LEAST, MOST);
-        let most = self.tasks.iter().flat_map(|it| &it.plans).map(|it| it.roles.len()).max();
-        let open = self.robots.len().saturating_mul(most.unwrap_or(0).min(N));
-        let (mut roles, mut ways) = (vec![[0; N]; team.roles()], vec![Way::EMPTY; team.plans()]);
-        let (mut slots, mut columns) =
-            (vec![Slot::EMPTY; self.tasks.len()], vec![Column::EMPTY; columns]);
-        let mut open = vec![Open::EMPTY; open.saturating_add(1)];
-        let mut levels = vec![Level::EMPTY; N + 1];
-        let mut joint = Joint::<N>::new(JointMemory {
-            roles: &mut roles,
-            ways: &mut ways,
-            slots: &mut slots,
-            columns: &mut columns,
-            open: &mut open,
-            levels: &mut levels,
-        });
+        let mut workspace = Workspace::<N>::new();
+        let mut joint = workspace.winners(team, columns);
         let solved = joint.solve(team, steps)?;
         let proof = Proof::Search { steps: solved.steps, nodes: solved.nodes };
         let verdict = match solved.outcome {
@@ -66,7 +53,8 @@ impl Instance {
         Ok(Assignment { verdict, done, proof })
     }
 
-    /// What is known of an instance that is too large: each task alone costs so much at least.
+    /// Returns the answer for an instance that is too large: the sum of the least costs of each
+    /// task alone as a bound.
     pub(super) fn too_large(&self, limit: String) -> Assignment {
         let parts = u64::from(self.denominator);
         let bound = self.tasks.iter().map(|task| {

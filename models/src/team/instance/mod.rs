@@ -1,4 +1,5 @@
-//! Teams and their tasks from files: `cotama-team-assignment/1`, in JSON.
+//! Teams and their tasks from files: `cotama-team-assignment/1`, in JSON; and those of a team at
+//! work ([`scenario`](super::scenario)), as it starts.
 //!
 //! [`Instance::parse`] reads a file and reports every error at once, each with its place and the
 //! path of its field; what it returns is complete. [`Instance::solve`] says who does what at the
@@ -7,18 +8,20 @@
 mod check;
 mod coalition;
 mod context;
+mod draft;
 mod joint;
-mod json;
+mod opening;
 mod reader;
 mod single;
 mod solve;
+mod staffed;
 
-pub use reader::{FORMAT, MAX_COST, MAX_INSTANCE_ENTRIES};
+pub use draft::{FORMAT, MAX_COST, MAX_INSTANCE_ENTRIES};
 pub use solve::{Assignment, Done, Greedy, PlanProof, Proof, Reason, Verdict};
 
 use cotama_core::team::{Combine, Cost, Costs, Plan, Task, Team, TeamError};
 
-/// What tasks an instance has.
+/// The kind of tasks of an instance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Each task needs one robot.
@@ -36,7 +39,7 @@ impl Kind {
     pub const ALL: [Self; 4] =
         [Self::Single, Self::CoalitionMean, Self::CoalitionMax, Self::Simultaneous];
 
-    /// Its name in files.
+    /// Returns the name in files.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Single => "single",
@@ -51,9 +54,9 @@ impl Kind {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Instance {
-    /// Its name.
+    /// Name of the instance.
     pub name: String,
-    /// What tasks it has.
+    /// Kind of its tasks.
     pub kind: Kind,
     /// All costs of answers are counted in parts, so many of which make a unit.
     pub denominator: u32,
@@ -67,15 +70,16 @@ pub struct Instance {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct InstanceTask {
-    /// Its name.
+    /// Name of the task.
     pub name: String,
-    /// What it costs to leave it undone; none where it must be done.
+    /// Cost of leaving the task undone; `None` where it must be done.
     pub skip: Option<Cost>,
     /// How the costs of roles become one.
     pub combine: Combine,
-    /// Its plans have names and roles; else it has one plan with one role, both without a name.
+    /// Whether the plans have names and roles; else there is one plan with one role, both without a
+    /// name.
     pub is_for_several: bool,
-    /// Its plans, at least one.
+    /// The plans, at least one.
     pub plans: Vec<InstancePlan>,
 }
 
@@ -83,19 +87,19 @@ pub struct InstanceTask {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct InstancePlan {
-    /// Its name; empty where the task needs one robot.
+    /// Name of the plan; empty where the task needs one robot.
     pub name: String,
-    /// What it yields less than the best plan of the task.
+    /// The yield that the plan lacks to the best plan of the task.
     pub extra: u32,
     /// The names of its roles, at least one.
     pub roles: Vec<String>,
-    /// What each robot costs in each role, role after role.
+    /// Cost of each robot in each role, role after role.
     pub costs: Vec<Option<Cost>>,
 }
 
 impl InstancePlan {
-    /// What each robot costs in each role: roles are rows, robots are columns. None where the
-    /// costs are not as many as roles times robots, which no file can say.
+    /// Returns the cost of each robot in each role: roles are rows, robots are columns. None where
+    /// the costs are not as many as roles times robots, which no file can say.
     pub fn table(&self) -> Option<Costs<'_>> {
         Costs::new(&self.costs, self.costs.len().checked_div(self.roles.len())?)
     }
@@ -124,7 +128,8 @@ impl Instance {
         Ok(act(&Team::new(self.robots.len(), self.denominator, &tasks)?))
     }
 
-    /// What a task that is done costs, in parts; none where a robot is not capable of its role.
+    /// Returns the cost of a task that is done, in parts; `None` where a robot is not capable of
+    /// its role.
     pub fn cost_of(&self, done: &Done) -> Option<u64> {
         let task = self.tasks.get(done.task)?;
         let plan = task.plans.get(done.plan)?;

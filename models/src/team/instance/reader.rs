@@ -2,64 +2,20 @@
 
 use super::check::complete;
 use super::context::Context;
-use super::json::{Broken, Json};
+use super::draft::{
+    Draft, DraftPlan, DraftRole, DraftTask, List, MAX_COST, MAX_INSTANCE_ENTRIES, Skip,
+};
 use super::{Instance, Kind};
+use crate::json::{Advice, Broken, Json};
 use crate::missions::{MissionErrors, Spanned};
 use crate::names::unknown;
 use cotama_core::team::{Combine, Cost};
-use std::ops::Range;
 
-/// What instances say that they are.
-pub const FORMAT: &str = "cotama-team-assignment/1";
-/// The largest cost of a file, and the largest denominator.
-pub const MAX_COST: u32 = 1_000_000_000;
-/// The most entries of all lists of costs together.
-pub const MAX_INSTANCE_ENTRIES: usize = 1 << 25;
-
-/// A list of costs, and where it stands.
-pub(super) type List = Spanned<Vec<Option<Cost>>>;
-
-/// An instance as far as it was read.
-#[derive(Default)]
-pub(super) struct Draft {
-    pub(super) span: Range<usize>,
-    pub(super) format: Option<Spanned<String>>,
-    pub(super) name: Option<Spanned<String>>,
-    pub(super) kind: Option<Spanned<Kind>>,
-    pub(super) denominator: Option<Spanned<u32>>,
-    pub(super) robots: Option<Vec<Spanned<String>>>,
-    pub(super) tasks: Option<Vec<DraftTask>>,
-    pub(super) entries: usize,
-}
-
-/// What `skip_cost` says: nothing where the task must be done.
-#[derive(Clone, Copy)]
-pub(super) struct Skip(pub(super) Option<Cost>);
-
-#[derive(Default)]
-pub(super) struct DraftTask {
-    pub(super) span: Range<usize>,
-    pub(super) name: Option<Spanned<String>>,
-    pub(super) skip: Option<Skip>,
-    pub(super) cost: Option<List>,
-    pub(super) combine: Option<Spanned<Combine>>,
-    pub(super) plans: Option<Spanned<Vec<DraftPlan>>>,
-}
-
-#[derive(Default)]
-pub(super) struct DraftPlan {
-    pub(super) span: Range<usize>,
-    pub(super) name: Option<Spanned<String>>,
-    pub(super) extra: u32,
-    pub(super) roles: Option<Spanned<Vec<DraftRole>>>,
-}
-
-#[derive(Default)]
-pub(super) struct DraftRole {
-    pub(super) span: Range<usize>,
-    pub(super) name: Option<Spanned<String>>,
-    pub(super) cost: Option<List>,
-}
+/// Advice on a file that is no JSON.
+const ADVICE: Advice = Advice {
+    help: "an instance is one JSON object; `cotama help assign` shows one",
+    no_number: "this is no number of JSON: write `null` where a robot is not capable",
+};
 
 impl Instance {
     /// Reads a `cotama-team-assignment/1` file. `source_name` is its name in messages.
@@ -97,7 +53,7 @@ impl Instance {
 }
 
 fn document(text: &str, all: &mut Context, draft: &mut Draft) -> Result<(), Broken> {
-    let json = &mut Json::new(text);
+    let json = &mut Json::new(text, &ADVICE);
     let start = json.start();
     let keys =
         ["format", "name", "kind", "cost_denominator", "robots", "tasks", "note", "expected"];

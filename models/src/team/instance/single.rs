@@ -3,7 +3,7 @@
 use super::solve::{Assignment, Done, Proof, Reason, Verdict};
 use super::{Instance, MAX_INSTANCE_ENTRIES};
 use cotama_core::allocation::MemoryError;
-use cotama_core::team::{Amount, Cost, Costs, Memory, Unassigned, assign};
+use cotama_core::team::{Amount, AssignmentError, Cost, Costs, Memory, assign};
 
 /// The memory of an assignment, on the heap, with a table.
 pub(super) struct Room<N> {
@@ -35,12 +35,12 @@ impl<N: Amount + Default> Room<N> {
 /// Assigns, in 32 bits where that suffices.
 pub(super) fn assigned<R>(
     costs: &Costs<'_>,
-    act: impl Fn(&Costs<'_>, Result<u64, Unassigned>, &dyn Read) -> R,
+    act: impl Fn(&Costs<'_>, Result<u64, AssignmentError>, &dyn Read) -> R,
 ) -> Result<R, MemoryError> {
     let mut narrow = Room::<i32>::new(costs.rows(), costs.columns(), 0);
     let (_, mut memory) = narrow.parts()?;
     let result = assign(costs, &mut memory);
-    if result != Err(Unassigned::TooLarge) {
+    if result != Err(AssignmentError::TooLarge) {
         return Ok(act(costs, result, &memory));
     }
     let mut wide = Room::<i64>::new(costs.rows(), costs.columns(), 0);
@@ -49,7 +49,7 @@ pub(super) fn assigned<R>(
     Ok(act(costs, result, &memory))
 }
 
-/// What is read of a memory, of whatever width.
+/// Read access to a memory of any width.
 pub(super) trait Read {
     fn column(&self, row: usize) -> Option<usize>;
     fn price(&self, column: usize) -> i64;
@@ -101,7 +101,7 @@ impl Instance {
 
     fn single_answer(
         &self,
-        result: Result<u64, Unassigned>,
+        result: Result<u64, AssignmentError>,
         memory: &dyn Read,
     ) -> Result<Assignment, MemoryError> {
         let robots = self.robots.len();
@@ -112,7 +112,7 @@ impl Instance {
                     let robot = memory.column(task).filter(|it| *it < robots)?;
                     Some(Done { task, plan: 0, robots: vec![robot] })
                 };
-                // That a task may be left undone is worth nothing to others: these columns need
+                // The right to be left undone is worth nothing to other tasks: these columns need
                 // no price.
                 let price = |robot| memory.price(robot).unsigned_abs();
                 Ok(Assignment {
@@ -121,8 +121,9 @@ impl Instance {
                     proof: Proof::Prices((0..robots).map(price).collect()),
                 })
             }
-            Err(Unassigned::Infeasible { .. }) => {
-                // Who may be left undone is left out: it takes a column of its own with it.
+            Err(AssignmentError::Infeasible { .. }) => {
+                // Tasks that may be left undone are left out: each takes a column of its own with
+                // it.
                 let must = |it: &usize| self.tasks.get(*it).is_some_and(|it| it.skip.is_none());
                 let tasks = (0..self.tasks.len()).filter(|it| memory.in_conflict(*it));
                 let tasks: Vec<_> = tasks.filter(must).collect();
@@ -130,8 +131,8 @@ impl Instance {
                 let (verdict, proof) = (Verdict::Infeasible(reason), Proof::Hall);
                 Ok(Assignment { verdict, done: vec![], proof })
             }
-            Err(Unassigned::Memory(error)) => Err(error),
-            Err(Unassigned::TooLarge) => Ok(self.too_large("costs pass 64 bits".into())),
+            Err(AssignmentError::Memory(error)) => Err(error),
+            Err(AssignmentError::TooLarge) => Ok(self.too_large("costs pass 64 bits".into())),
         }
     }
 

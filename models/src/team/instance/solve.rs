@@ -1,22 +1,23 @@
-//! Who does what, and what proves it.
+//! The assignment of robots to tasks, and its proof.
 
 use super::{Instance, Kind};
+use crate::team::thesis;
 use cotama_core::allocation::MemoryError;
-use cotama_core::team::{Cost, thesis};
+use cotama_core::team::Cost;
 
-/// What is known of an instance.
+/// The verdict on an instance.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// The assignment costs least.
     Optimal {
-        /// What it costs, in parts.
+        /// Cost of the assignment, in parts.
         cost: u64,
     },
     /// Some tasks that must be done cannot be staffed together.
     Infeasible(Reason),
     /// A limit was reached.
     Unknown {
-        /// What the assignment costs, in parts; none where none was found.
+        /// Cost of the assignment, in parts; `None` where none was found.
         cost: Option<u64>,
         /// No assignment costs less, in parts.
         bound: u64,
@@ -28,7 +29,7 @@ pub enum Verdict {
 pub struct Reason {
     /// Tasks that must be done and cannot be staffed together.
     pub tasks: Vec<usize>,
-    /// The robots that they compete for.
+    /// The robots that they compete for, each of which is capable of a role in one of them.
     pub robots: Vec<usize>,
 }
 
@@ -43,7 +44,7 @@ pub struct Done {
     pub robots: Vec<usize>,
 }
 
-/// What anyone can add again.
+/// A proof that anyone can add up again.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Proof {
     /// A price for each robot, in units. Each task pays at least the less of what it costs to leave
@@ -52,7 +53,7 @@ pub enum Proof {
     Prices(Vec<u64>),
     /// Why each plan of the only task costs no less than said.
     Plans(Vec<PlanProof>),
-    /// Some tasks have fewer robots than they are (P. Hall, 1935).
+    /// Some tasks need more robots than are capable of any of them (P. Hall, 1935).
     Hall,
     /// A search left nothing that is better, or as much as the bound says.
     Search {
@@ -61,7 +62,8 @@ pub enum Proof {
         /// The nodes that it visited.
         nodes: u64,
     },
-    /// It is too large for what proves the least cost: each task alone costs so much at least.
+    /// The instance is too large for a proof of the least cost: each task alone costs so much at
+    /// least.
     TooLarge {
         /// In words.
         limit: String,
@@ -73,14 +75,14 @@ pub enum Proof {
 pub enum PlanProof {
     /// At these prices of robots, in units, each role pays at least so much.
     Prices {
-        /// What the task costs by this plan, in parts.
+        /// Cost of the task by this plan, in parts.
         cost: u64,
         /// One for each robot.
         prices: Vec<u64>,
     },
     /// Below this cost, these roles have fewer robots than they are.
     Threshold {
-        /// What the task costs by this plan, in parts.
+        /// Cost of the task by this plan, in parts.
         cost: u64,
         /// The largest cost of its roles, in units.
         largest: u32,
@@ -101,16 +103,16 @@ pub enum PlanProof {
 /// An answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Assignment {
-    /// What is known.
+    /// The verdict.
     pub verdict: Verdict,
     /// The tasks that are done, in their order.
     pub done: Vec<Done>,
-    /// What proves it.
+    /// The proof of the verdict.
     pub proof: Proof,
 }
 
 impl Assignment {
-    /// What the assignment costs, in parts; none where there is none.
+    /// Returns the cost of the assignment, in parts; `None` where there is none.
     pub const fn cost(&self) -> Option<u64> {
         match self.verdict {
             Verdict::Optimal { cost } => Some(cost),
@@ -129,10 +131,10 @@ impl Assignment {
     }
 }
 
-/// What greedy rounds come to.
+/// The outcome of greedy rounds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Greedy {
-    /// What the tasks cost that are done, and those that are left undone and may be, in parts.
+    /// Cost of the tasks that are done, and of those that are left undone and may be, in parts.
     pub cost: u64,
     /// How many tasks are left undone that must be done.
     pub unserved: usize,
@@ -153,12 +155,20 @@ impl Instance {
         match self.kind {
             Kind::Single => self.solve_single(),
             Kind::CoalitionMean | Kind::CoalitionMax => self.solve_coalition(),
-            Kind::Simultaneous => self.solve_joint(steps),
+            Kind::Simultaneous => match self.understaffed() {
+                Some(reason) => Ok(Assignment {
+                    verdict: Verdict::Infeasible(reason),
+                    done: vec![],
+                    proof: Proof::Hall,
+                }),
+                None => self.solve_joint(steps),
+            },
         }
     }
 
-    /// What greedy rounds come to, as the thesis forms teams (Rohrmueller, 3.5 and Algorithm 3.1):
-    /// for comparison. None for more than 128 robots, or costs too large for all tasks at once.
+    /// Returns the outcome of greedy rounds, as the thesis forms teams (Rohrmueller, 3.4.4 and
+    /// Algorithm 3.1): for comparison. None for more than 128 robots, or costs too large for all
+    /// tasks at once.
     pub fn greedy(&self) -> Option<Greedy> {
         let (tasks, robots) = (self.tasks.len(), self.robots.len());
         let roles = self.tasks.iter().flat_map(|it| &it.plans).map(|it| it.roles.len()).max();

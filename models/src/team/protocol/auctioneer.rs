@@ -1,5 +1,6 @@
-//! What the auctioneer of a task does.
+//! The transitions of the auctioneer of a task.
 
+use super::coalition::{blockers, subsets};
 use super::draft::Draft;
 use super::team::Defect;
 use cotama_core::net::PlaceId;
@@ -29,31 +30,7 @@ fn choices(lists: &[Vec<Said>]) -> Vec<(Vec<PlaceId>, String)> {
     })
 }
 
-/// All subsets of so many, smallest first.
-pub(super) fn subsets(of: &[usize], sizes: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
-    let all = (0_u32..1 << of.len()).map(|bits| {
-        of.iter().enumerate().filter(|it| bits >> it.0 & 1 == 1).map(|it| *it.1).collect()
-    });
-    let mut all: Vec<Vec<usize>> = all.filter(|it: &Vec<usize>| sizes(it.len())).collect();
-    all.sort_by_key(Vec::len);
-    all
-}
-
 impl Draft<'_> {
-    /// The coalitions that an auctioneer considers.
-    pub(super) fn coalitions(&self, task: usize) -> Vec<Vec<usize>> {
-        let job = &self.team.tasks[task];
-        subsets(&self.bidders(task), |size| size == job.plan.roles())
-    }
-
-    /// Who bids.
-    pub(super) fn bidders(&self, task: usize) -> Vec<usize> {
-        if self.has(Defect::NamesIncapable) {
-            return (0..self.team.robots).collect();
-        }
-        self.team.tasks[task].capable.clone()
-    }
-
     pub(super) fn auctioneer(&mut self, task: usize) {
         self.announces(task);
         self.awards(task);
@@ -74,7 +51,7 @@ impl Draft<'_> {
             self.add(&name, &[open], &[&silent[..], &[led]].concat(), &[announced]);
             return;
         }
-        // It waits for those only whom it heard an Alive of.
+        // The auctioneer waits only for robots of which it heard an Alive.
         let all: Vec<_> = (0..self.team.robots).collect();
         for dead in subsets(&all, |size| size <= self.team.failures as usize) {
             let is_dead = |r: &usize| dead.contains(r);
@@ -140,8 +117,11 @@ impl Draft<'_> {
             }
         }
         if waits {
-            let roles = self.team.tasks[task].plan.roles();
-            for bids in subsets(&bidders, |size| size < roles) {
+            let coalitions = self.coalitions(task);
+            for bids in subsets(&bidders, |_| true) {
+                if coalitions.iter().any(|it| it.iter().all(|r| bids.contains(r))) {
+                    continue;
+                }
                 let mut take = vec![announced];
                 take.extend(bids.iter().map(|&r| answers[r].1));
                 take.extend(others(&bids, &[]).iter().map(|&r| answers[r].2));
@@ -169,9 +149,11 @@ impl Draft<'_> {
                 ways
             };
             let ways = choices(&coalition.iter().map(|&r| said_yes(r)).collect::<Vec<_>>());
+            let alone = self.others_silent(task, &coalition);
             for (way, who) in ways {
                 let name = format!("t{}.all_acked{who}", task + 1);
-                self.add(&name, &[awarded], &[&way[..], &[led]].concat(), &[executing]);
+                let read = [&way[..], &alone, &[led]].concat();
+                self.add(&name, &[awarded], &read, &[executing]);
             }
         }
     }
@@ -226,9 +208,10 @@ impl Draft<'_> {
                 .iter()
                 .flat_map(|&r| [self.tasks[task].answers[r].acked, self.robots[r].down])
                 .collect();
+            let alone = self.others_silent(task, &coalition);
             for (way, who) in choices(&lists) {
                 let name = format!("t{}.reopen{who}", task + 1);
-                let read = [&way[..], &[led]].concat();
+                let read = [&way[..], &alone, &[led]].concat();
                 if way == all_died {
                     // If they completed it before, the news died with them.
                     let died = format!("{name}.news_died");
@@ -241,7 +224,7 @@ impl Draft<'_> {
         }
     }
 
-    /// Done, or reported as nobody is left who could.
+    /// Done, or reported as too few are left who could.
     fn ends(&mut self, task: usize) {
         let t = task + 1;
         let it = &self.tasks[task];
@@ -262,8 +245,7 @@ impl Draft<'_> {
             return;
         }
         let job = &self.team.tasks[task];
-        let few = (job.capable.len() + 1).saturating_sub(job.plan.roles());
-        for dead in subsets(&job.capable, |size| size == few) {
+        for dead in blockers(&job.capable(), &job.coalitions()) {
             let mut read: Vec<_> = dead.iter().map(|&r| self.robots[r].down).collect();
             read.push(led);
             let name = format!("t{t}.report.without{}", suffix(&dead));

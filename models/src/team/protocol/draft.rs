@@ -4,7 +4,7 @@ use super::team::{Defect, Team};
 use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Arc, PlaceId};
 
-/// What the net is.
+/// Documentation of the net.
 const DOC: &str = "Robots agree by messages on who does which task.";
 
 /// A robot's places: one of `idle`, `waiting`, `executing` and `down` is marked.
@@ -22,18 +22,18 @@ pub(super) struct Robot {
 pub(super) struct Answer {
     pub(super) silent: PlaceId,
     pub(super) bid: PlaceId,
-    /// It will not bid in this round; only the text's auctioneer waits for that.
+    /// The robot will not bid in this round; only the text's auctioneer waits for that.
     pub(super) passed: PlaceId,
     /// The award names it; its Assign is in the air.
     pub(super) named: PlaceId,
-    /// Its Ack is in the air.
+    /// The Ack of the robot is in the air.
     pub(super) acked: PlaceId,
-    /// It had said yes and has left; its Ack and its "no" are in the air.
+    /// The robot had said yes and has left; its Ack and its "no" are in the air.
     pub(super) left: PlaceId,
-    /// It said no at once.
+    /// The robot said no at once.
     pub(super) refused: PlaceId,
-    /// What of it is in the air from rounds before: nothing, an Assign to it, an Ack as well. No
-    /// places where messages of older rounds leave no trace.
+    /// The messages to and from the robot that are in the air from rounds before: nothing, an
+    /// Assign to it, an Ack as well. No places where messages of older rounds leave no trace.
     pub(super) old: Vec<PlaceId>,
 }
 
@@ -52,7 +52,7 @@ pub(super) struct Task {
     pub(super) completed: PlaceId,
     /// Some auctioneer of it is active.
     pub(super) led: PlaceId,
-    /// Its auctioneer is down.
+    /// The auctioneer of the task is down.
     pub(super) vacant: PlaceId,
     /// For each robot: whether it is the auctioneer.
     pub(super) leader: Vec<PlaceId>,
@@ -89,7 +89,7 @@ impl<'t> Draft<'t> {
         Self { team, net, robots, tasks, failures, failed, untimely }
     }
 
-    /// What is claimed of the repaired protocol; a net with a defect breaks some of it.
+    /// Claims the properties of the repaired protocol; a net with a defect breaks some of them.
     pub(super) fn laws(&mut self) {
         let invariant = |places: &[PlaceId]| OwnedLaw::Invariant {
             sum: places.iter().map(|&place| Arc { place, weight: 1 }).collect(),
@@ -103,7 +103,7 @@ impl<'t> Draft<'t> {
         for (t, it) in self.tasks.iter().enumerate() {
             laws.push(invariant(&[&[it.vacant][..], &it.leader].concat()));
             laws.push(OwnedLaw::NeverBoth(it.completed, it.announced));
-            for &r in &self.team.tasks[t].capable {
+            for r in self.team.tasks[t].capable() {
                 let work = self.robots[r].executing[t];
                 laws.push(OwnedLaw::NeverBoth(work, it.announced));
                 laws.push(OwnedLaw::NeverBoth(it.executing, it.answers[r].named));
@@ -144,7 +144,7 @@ fn robot(net: &mut OwnedNet, number: usize, tasks: usize) -> Robot {
 fn task(net: &mut OwnedNet, at: usize, team: &Team) -> Task {
     let most = if team.defects.is_empty() { 1 } else { team.robots as u32 };
     let mut one = |what: &str, tokens| place(net, &format!("t{}.{what}", at + 1), tokens, most);
-    let first = at % team.robots;
+    let first = team.tasks[at].received;
     Task {
         open: one("open", 1),
         announced: one("announced", 0),

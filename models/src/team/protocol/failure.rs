@@ -1,6 +1,7 @@
-//! What fails, and who takes over.
+//! Failures, and the robots that take over.
 
-use super::auctioneer::{numbered, subsets, suffix};
+use super::auctioneer::{numbered, suffix};
+use super::coalition::subsets;
 use super::draft::Draft;
 use super::team::Defect;
 

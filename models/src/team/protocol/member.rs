@@ -1,9 +1,13 @@
-//! What a robot does: bids, answers, waits for its partner, executes, leaves.
+//! The transitions of a robot: it bids, answers, waits for its partner, executes, leaves.
 
 use super::auctioneer::suffix;
 use super::draft::Draft;
-use super::team::{Defect, Plan};
+use super::team::Defect;
 use cotama_core::net::PlaceId;
+use std::collections::BTreeSet;
+
+/// A robot, a word before its number, what is read of it, and a word behind.
+type Heard = (usize, &'static str, Vec<PlaceId>, &'static str);
 
 impl Draft<'_> {
     pub(super) fn member(&mut self, task: usize, r: usize) {
@@ -16,7 +20,7 @@ impl Draft<'_> {
         self.leaves(task, r);
     }
 
-    /// Where a robot is busy with these tasks, and a word for that.
+    /// Returns the places in which a robot is busy with these tasks, each with a word for that.
     fn busy(&self, r: usize, tasks: impl Fn(usize) -> bool) -> Vec<(String, PlaceId)> {
         let robot = &self.robots[r];
         let named = |word: &str, places: &[PlaceId]| -> Vec<(String, PlaceId)> {
@@ -48,22 +52,44 @@ impl Draft<'_> {
         }
     }
 
-    /// What is in the air when the auctioneer has asked this robot: it asks in the order of
-    /// numbers, the next one when the one before said yes.
+    /// Returns the messages in the air when the auctioneer has asked this robot: it asks in the
+    /// order of numbers, the next one when the one before said yes.
     fn asked(&self, task: usize, r: usize) -> Vec<(String, Vec<PlaceId>)> {
-        if self.team.tasks[task].plan == Plan::Alone || self.has(Defect::AsksAllAtOnce) {
+        if self.has(Defect::AsksAllAtOnce) {
             return vec![(String::new(), vec![])];
         }
         let answers = &self.tasks[task].answers;
-        let partners = self.bidders(task).into_iter().filter(|p| *p != r);
-        let ways = partners.flat_map(|p| {
+        let said = |p: usize| -> Vec<Heard> {
             let it = &answers[p];
-            let said = if p < r {
-                vec![("after", it.acked), ("though_left", it.left)]
+            if p < r {
+                vec![(p, ".after", vec![it.acked], ""), (p, ".though_left", vec![it.left], "")]
             } else {
-                vec![("before", it.named)]
-            };
-            said.into_iter().map(move |(word, place)| (format!(".{word}.r{}", p + 1), vec![place]))
+                vec![(p, ".before", vec![it.named], "")]
+            }
+        };
+        self.heard(task, r, said)
+    }
+
+    /// Returns what a robot hears of its partners, of all in each coalition: a name with words for
+    /// each, and what is read.
+    fn heard(
+        &self,
+        task: usize,
+        r: usize,
+        said: impl Fn(usize) -> Vec<Heard>,
+    ) -> Vec<(String, Vec<PlaceId>)> {
+        let ways = self.partners(task, r).into_iter().flat_map(|partners| {
+            let whole = [&partners[..], &[r]].concat();
+            let alone = self.others_silent(task, &whole);
+            let begin = vec![(String::new(), alone)];
+            partners.iter().fold(begin, |ways, &p| {
+                let said = said(p);
+                let longer = |way: &(String, Vec<PlaceId>), it: &Heard| {
+                    let name = format!("{}{}{}{}", way.0, it.1, suffix(&[it.0]), it.3);
+                    (name, [&way.1[..], &it.2].concat())
+                };
+                ways.iter().flat_map(|way| said.iter().map(|it| longer(way, it))).collect()
+            })
         });
         ways.collect()
     }
@@ -105,23 +131,25 @@ impl Draft<'_> {
         let own = answers[r].acked;
         let (waiting, executing) = (self.robots[r].waiting[task], self.robots[r].executing[task]);
         let name = format!("r{}.start.t{}", r + 1, task + 1);
-        if self.team.tasks[task].plan == Plan::Alone || self.has(Defect::StartsAlone) {
+        if self.has(Defect::StartsAlone) {
             self.add(&name, &[waiting], &[own], &[executing]);
             return;
         }
-        for p in self.bidders(task).into_iter().filter(|p| *p != r) {
+        let heard = |p: usize| -> Vec<Heard> {
             let it = &self.tasks[task].answers[p];
-            let mut heard = vec![("", vec![it.acked]), (".late", vec![it.left])];
+            let mut heard =
+                vec![(p, ".with", vec![it.acked], ""), (p, ".with", vec![it.left], ".late")];
             if let (true, Some(&old)) = (self.has(Defect::StartsOnOldAck), it.old.get(2)) {
-                heard.push((".old", vec![it.named, old]));
+                heard.push((p, ".with", vec![it.named, old], ".old"));
             }
             if self.has(Defect::SilenceIsConsent) {
-                heard.push((".silence", vec![it.named, self.robots[p].down]));
+                heard.push((p, ".with", vec![it.named, self.robots[p].down], ".silence"));
             }
-            for (word, read) in heard {
-                let name = format!("{name}.with.r{}{word}", p + 1);
-                self.add(&name, &[waiting], &[&read[..], &[own]].concat(), &[executing]);
-            }
+            heard
+        };
+        for (word, read) in self.heard(task, r, heard) {
+            let read = [&read[..], &[own]].concat();
+            self.add(&format!("{name}{word}"), &[waiting], &read, &[executing]);
         }
     }
 
@@ -137,13 +165,15 @@ impl Draft<'_> {
             let mut take: Vec<_> = robots.map(|it| it.executing[task]).collect();
             let mut give: Vec<_> = coalition.iter().map(|&r| after(r)).collect();
             let (unfinished, completed) = (self.tasks[task].unfinished, self.tasks[task].completed);
+            let alone = self.others_silent(task, &coalition);
             let name = format!("t{}.finish{}", task + 1, suffix(&coalition));
             if !self.team.defects.is_empty() {
-                self.add(&format!("{name}.again"), &take, &[completed], &give);
+                let read = [&alone[..], &[completed]].concat();
+                self.add(&format!("{name}.again"), &take, &read, &give);
             }
             take.push(unfinished);
             give.push(completed);
-            self.add(&name, &take, &[], &give);
+            self.add(&name, &take, &alone, &give);
         }
     }
 
@@ -182,10 +212,8 @@ impl Draft<'_> {
                 self.add(&name, &[acked, waiting], &[old], &[left, idle]);
             }
         }
-        if self.team.tasks[task].plan == Plan::Alone {
-            return;
-        }
-        for p in self.bidders(task).into_iter().filter(|p| *p != r) {
+        let partners: BTreeSet<_> = self.partners(task, r).into_iter().flatten().collect();
+        for p in partners {
             let it = &self.tasks[task].answers[p];
             let (gone, never) = (it.left, it.refused);
             let name = format!("r{number}.stop.t{t}.r{}", p + 1);

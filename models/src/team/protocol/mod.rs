@@ -63,6 +63,8 @@
 //! Names: `r2.waiting.t1` is robot 2 in task 1, `t1.named.r2` what task 1's round holds of robot 2.
 
 mod auctioneer;
+mod coalition;
+mod conversion;
 mod draft;
 mod failure;
 mod member;
@@ -70,7 +72,8 @@ mod requirement;
 mod supervised;
 mod team;
 
-pub use requirement::{Requirement, requirements};
+pub use conversion::MOST_STEPS;
+pub use requirement::{REQUIREMENTS, Requirement, requirements};
 pub use supervised::{supervised, supervised_requirements};
 pub use team::{Defect, MOST_ROBOTS, TEXT, Team};
 

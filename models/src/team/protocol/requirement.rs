@@ -1,7 +1,8 @@
-//! What the protocol is required to do, as questions to the checker.
+//! The requirements of the protocol, as questions to the checker.
 
-use super::team::{Plan, Team};
+use super::team::{Job, Team};
 use cotama_core::net::owned::OwnedNet;
+use std::collections::BTreeSet;
 
 /// A requirement.
 ///
@@ -16,7 +17,7 @@ use cotama_core::net::owned::OwnedNet;
 pub struct Requirement {
     /// S1 to S9 are about what never happens, L1 to L4 about what happens at last.
     pub id: &'static str,
-    /// What is required, in a sentence.
+    /// The requirement in a sentence.
     pub sentence: &'static str,
     /// The property, in the language of the checker. What is to happen at last is asked of the runs
     /// on which the network settles.
@@ -25,6 +26,23 @@ pub struct Requirement {
     /// kept from a step either: what does not hold then is no matter of patience.
     pub fair: String,
 }
+
+/// The numbers of the requirements, each with its sentence, in their order.
+pub const REQUIREMENTS: [(&str, &str); 13] = [
+    ("S1", "No task is executed under two awards."),
+    ("S2", "A robot is in at most one coalition and role."),
+    ("S3", "Nobody executes a role before every member has acknowledged."),
+    ("S4", "Executing robots are capable, and were alive at the award."),
+    ("S5", "An award names only robots that bid in this round."),
+    ("S6", "A completed task is never announced again."),
+    ("S7", "A task has at most one active auctioneer."),
+    ("S8", "No message of an old round changes a state."),
+    ("S9", "After a member fails, its partners leave their roles."),
+    ("L1", "Every announced task ends done or reported."),
+    ("L2", "A robot is not kept waiting by a dead partner."),
+    ("L3", "After the auctioneer fails one takes over, and the task ends."),
+    ("L4", "Auctioneers do not announce for ever: without failures all is done."),
+];
 
 /// Steps that nobody is obliged to: failures, and deadlines that are too early.
 const ENVIRONMENT: [&str; 4] = [".crash.", ".give_up.", ".deadline", "failure."];
@@ -42,6 +60,17 @@ struct Pair<'a> {
     partners: &'a [usize],
 }
 
+/// For each robot, the others of its coalitions, all counted from 1.
+fn partners(job: &Job, team: &Team) -> Vec<Vec<usize>> {
+    let mut all = vec![BTreeSet::new(); team.robots];
+    for coalition in job.coalitions() {
+        for &r in &coalition {
+            all[r].extend(coalition.iter().filter(|p| **p != r).map(|p| p + 1));
+        }
+    }
+    all.into_iter().map(|it| it.into_iter().collect()).collect()
+}
+
 /// All requirements of a team, S1 first.
 ///
 /// ```
@@ -55,18 +84,14 @@ struct Pair<'a> {
 pub fn requirements(team: &Team, net: &OwnedNet) -> Vec<Requirement> {
     let robots: Vec<_> = (1..=team.robots).collect();
     let tasks: Vec<_> = (1..=team.tasks.len()).collect();
-    let others: Vec<Vec<usize>> =
-        robots.iter().map(|r| robots.iter().filter(|p| *p != r).copied().collect()).collect();
+    let capable: Vec<_> = team.tasks.iter().map(Job::capable).collect();
+    // The other robots of each robot's coalitions, task by task; these count from 1.
+    let others: Vec<Vec<Vec<usize>>> = team.tasks.iter().map(|it| partners(it, team)).collect();
     let pairs = |of: &dyn Fn(&Pair<'_>) -> Vec<String>| -> Vec<String> {
         let all = tasks.iter().flat_map(|&t| robots.iter().map(move |&r| (t, r)));
         all.flat_map(|(t, r)| {
-            let job = &team.tasks[t - 1];
-            of(&Pair {
-                t,
-                r,
-                is_capable: job.capable.contains(&(r - 1)),
-                partners: if job.plan == Plan::Pair { &others[r - 1] } else { &[] },
-            })
+            let is_capable = capable[t - 1].contains(&(r - 1));
+            of(&Pair { t, r, is_capable, partners: &others[t - 1][r - 1] })
         })
         .collect()
     };
@@ -74,7 +99,8 @@ pub fn requirements(team: &Team, net: &OwnedNet) -> Vec<Requirement> {
     let sum = |parts: Vec<String>, most: usize| format!("{} > {most}", parts.join(" + "));
     let leads_to = |all: Vec<(String, String)>| {
         let each = all.iter().map(|(from, to)| format!("AG ({from} -> AF {to})"));
-        each.collect::<Vec<_>>().join(" & ")
+        let each: Vec<_> = each.collect();
+        if each.is_empty() { "AG true".to_owned() } else { each.join(" & ") }
     };
     let followed = |of: &dyn Fn(&Pair<'_>) -> Vec<(String, String)>| {
         let all = std::cell::RefCell::new(vec![]);
@@ -94,7 +120,7 @@ pub fn requirements(team: &Team, net: &OwnedNet) -> Vec<Requirement> {
             ),
         ]
     });
-    let crowds = tasks.iter().map(|&t| sum(executing(t).collect(), team.tasks[t - 1].plan.roles()));
+    let crowds = tasks.iter().map(|&t| sum(executing(t).collect(), team.tasks[t - 1].most_roles()));
     let s1 = never(two_awards.into_iter().chain(crowds).collect());
     let s2 = never(
         robots
@@ -161,30 +187,17 @@ pub fn requirements(team: &Team, net: &OwnedNet) -> Vec<Requirement> {
     let done: Vec<_> = tasks.iter().map(|t| format!("t{t}.done")).collect();
     let l4 = format!("AF (failed > 0 | {})", done.join(" & "));
 
-    let all = [
-        ("S1", "No task is executed under two awards.", s1),
-        ("S2", "A robot is in at most one coalition and role.", s2),
-        ("S3", "Nobody executes a role before every member has acknowledged.", s3),
-        ("S4", "Executing robots are capable, and were alive at the award.", s4),
-        ("S5", "An award names only robots that bid in this round.", s5),
-        ("S6", "A completed task is never announced again.", s6),
-        ("S7", "A task has at most one active auctioneer.", s7),
-        ("S8", "No message of an old round changes a state.", s8),
-        ("S9", "After a member fails, its partners leave their roles.", s9),
-        ("L1", "Every announced task ends done or reported.", l1),
-        ("L2", "A robot is not kept waiting by a dead partner.", l2),
-        ("L3", "After the auctioneer fails one takes over, and the task ends.", l3),
-        ("L4", "Auctioneers do not announce for ever: without failures all is done.", l4),
-    ];
+    let all = [s1, s2, s3, s4, s5, s6, s7, s8, s9, l1, l2, l3, l4];
     let steps = net.transitions.iter().map(|it| it.name.as_str());
     let steps = steps.filter(|name| !ENVIRONMENT.iter().any(|word| name.contains(word)));
     let steps = steps.collect::<Vec<_>>().join(", ");
-    let requirement = |(id, sentence, text): (&'static str, &'static str, String)| {
+    let requirement = |((id, sentence), text): (&(&'static str, &'static str), String)| {
         let assuming = |steps: &str| {
             let assumed = text.contains("AF").then(|| format!(" assuming weak({steps})"));
             format!("{text}{}", assumed.unwrap_or_default())
         };
-        Requirement { id, sentence, fair: assuming(&steps), text: assuming("network.settles") }
+        let (fair, text) = (assuming(&steps), assuming("network.settles"));
+        Requirement { id, sentence, text, fair }
     };
-    all.into_iter().map(requirement).collect()
+    REQUIREMENTS.iter().zip(all).map(requirement).collect()
 }

@@ -32,7 +32,7 @@ pub fn supervised(team: &Team) -> OwnedNet {
     draft.net
 }
 
-/// What is required of supervised robots beside [`requirements`](super::requirements).
+/// Returns the requirements of supervised robots beside [`requirements`](super::requirements).
 ///
 /// ```
 /// use cotama_models::team::protocol::{Team, supervised_requirements};

@@ -1,32 +1,29 @@
-//! What the net of a protocol is made for.
+//! The team for which the net of a protocol is made.
+
+use std::collections::BTreeSet;
 
 /// The largest team that there is a net for.
 pub const MOST_ROBOTS: usize = 6;
 
-/// How many robots a task's plan needs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Plan {
-    /// One.
-    Alone,
-    /// Two at once.
-    Pair,
-}
-
-impl Plan {
-    /// How many roles it has.
-    pub(super) const fn roles(self) -> usize {
-        match self {
-            Self::Alone => 1,
-            Self::Pair => 2,
-        }
-    }
-}
-
-/// A task: its plan, and who can fill a role of it, by number from 0.
+/// A task: its first auctioneer, and the robots that can fill each role of each plan, by their
+/// numbers from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Job {
-    pub(super) plan: Plan,
-    pub(super) capable: Vec<usize>,
+    pub(super) received: usize,
+    pub(super) plans: Vec<Vec<Vec<usize>>>,
+}
+
+impl Job {
+    /// Returns the robots that can fill a role, by their numbers.
+    pub(super) fn capable(&self) -> Vec<usize> {
+        let all: BTreeSet<_> = self.plans.iter().flatten().flatten().copied().collect();
+        all.into_iter().collect()
+    }
+
+    /// The most robots that work for it at once.
+    pub(super) fn most_roles(&self) -> usize {
+        self.plans.iter().map(Vec::len).max().unwrap_or(0)
+    }
 }
 
 /// Robots, tasks, failures, and where the protocol departs from the repaired one.
@@ -53,17 +50,24 @@ impl Team {
     /// most so many failures: a robot breaks down or gives its role up.
     pub fn new(robots: usize, failures: u32) -> Self {
         let robots = robots.clamp(2, MOST_ROBOTS);
-        let pair = Job { plan: Plan::Pair, capable: (0..robots).collect() };
-        let alone = Job { plan: Plan::Alone, capable: (robots - robots / 2..robots).collect() };
+        let all: Vec<_> = (0..robots).collect();
+        let pair = Job { received: 0, plans: vec![vec![all.clone(), all]] };
+        let last = (robots - robots / 2..robots).collect();
+        let alone = Job { received: 1, plans: vec![vec![last]] };
         let failures = failures.min(robots as u32);
-        Self { robots, failures, tasks: vec![pair, alone], defects: Vec::new(), keeps_old: true }
+        Self::of(robots, failures, vec![pair, alone])
+    }
+
+    /// A team of the repaired protocol.
+    pub(super) const fn of(robots: usize, failures: u32, tasks: Vec<Job>) -> Self {
+        Self { robots, failures, tasks, defects: Vec::new(), keeps_old: true }
     }
 
     /// Two robots that never fail, each with a task of two roles: two auctioneers that want the
     /// same coalition.
     pub fn rivals() -> Self {
-        let pair = Job { plan: Plan::Pair, capable: vec![0, 1] };
-        Self { tasks: vec![pair.clone(), pair], ..Self::new(2, 0) }
+        let pair = |received| Job { received, plans: vec![vec![vec![0, 1]; 2]] };
+        Self { tasks: vec![pair(0), pair(1)], ..Self::new(2, 0) }
     }
 
     /// The same with these defects.
@@ -84,7 +88,17 @@ impl Team {
         self.robots
     }
 
-    /// Its departures from the repaired protocol.
+    /// How many tasks there are.
+    pub const fn tasks(&self) -> usize {
+        self.tasks.len()
+    }
+
+    /// How often a robot fails at most.
+    pub const fn failures(&self) -> u32 {
+        self.failures
+    }
+
+    /// Returns the departures from the repaired protocol.
     pub fn defects(&self) -> &[Defect] {
         &self.defects
     }
@@ -105,7 +119,7 @@ pub enum Defect {
     NoDeadlineForAcks,
     /// The auctioneer does not notice that a member died while it executed.
     NoDeadlineForWork,
-    /// Whom an award was withdrawn from is not told (P2).
+    /// The auctioneer sends no Release to a robot from which it withdrew an award (P2).
     NoRelease,
     /// A withdrawn award is announced again before its members have left (P2).
     ReopensAtOnce,
@@ -139,13 +153,13 @@ pub enum Defect {
     TakesOverEarly,
     /// Nobody takes over.
     NobodyTakesOver,
-    /// Who executes does not hear a Release.
+    /// A robot that executes does not hear a Release.
     ExecutesOn,
     /// A robot that completed its role stays reserved.
     StaysReserved,
     /// A robot obeys a Release of an older round.
     ObeysOldRelease,
-    /// What nobody can do is not reported.
+    /// Tasks that no robot can do are not reported.
     NeverReports,
     /// A task is reported while its award stands.
     ReportsAwarded,
@@ -170,7 +184,7 @@ pub const TEXT: &[Defect] = &[
 ];
 
 impl Defect {
-    /// All of them.
+    /// All defects.
     pub const ALL: &[Self] = &[
         Self::WaitsForAllBids,
         Self::NoDeadlineForAcks,

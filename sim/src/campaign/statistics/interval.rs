@@ -49,7 +49,7 @@ pub fn clopper_pearson(hits: u64, runs: u64, confidence: f64) -> Interval {
 /// assert_eq!(okamoto_runs(0.01, 0.95), 18_445);
 /// ```
 pub fn okamoto_runs(error: f64, confidence: f64) -> u64 {
-    let runs = (2.0 / (1.0 - confidence)).ln() / (2.0 * error * error);
+    let runs = libm::log(2.0 / (1.0 - confidence)) / (2.0 * error * error);
     // A cast of a float keeps to the ends of the type.
     #[allow(clippy::cast_sign_loss, reason = "neither factor is below zero")]
     let whole = runs.ceil() as u64;

@@ -2,7 +2,7 @@
 
 use super::interval::{Interval, clopper_pearson, mean_interval};
 
-/// What changes from one policy to another, over the same plans.
+/// The change from one policy to another, over the same plans.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
     /// How often only the first succeeds.

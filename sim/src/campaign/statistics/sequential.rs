@@ -1,5 +1,6 @@
 //! A sequential test: runs until it is decided whether a probability is small enough.
 
+use libm::log;
 use std::fmt;
 
 /// The sequential probability ratio test (Wald, Ann. Math. Stat. 16, 1945): is the probability of
@@ -15,7 +16,8 @@ use std::fmt;
 pub struct Sprt {
     low: f64,
     high: f64,
-    /// What a failure and a success add to the logarithm of the likelihood ratio, high over low.
+    /// Amounts that a failure and a success add to the logarithm of the likelihood ratio, high over
+    /// low.
     failure: f64,
     success: f64,
     bound: f64,
@@ -24,12 +26,12 @@ pub struct Sprt {
     decided: Option<Decision>,
 }
 
-/// What a sequential test comes to.
+/// The decision of a sequential test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Decision {
     /// The probability is below `high`: an error, if it is not, is as unlikely as was asked.
     Small,
-    /// It is above `low`, with the same meaning.
+    /// The probability is above `low`, with the same meaning.
     Large,
 }
 
@@ -57,10 +59,10 @@ impl Sprt {
         Ok(Self {
             low,
             high,
-            failure: (high / low).ln(),
-            success: ((1.0 - high) / (1.0 - low)).ln(),
+            failure: log(high / low),
+            success: log((1.0 - high) / (1.0 - low)),
             // Not Wald's own bounds, which keep the sum of both errors only.
-            bound: -(1.0 - confidence).ln(),
+            bound: -log(1.0 - confidence),
             ratio: 0.0,
             runs: 0,
             decided: None,
@@ -83,7 +85,7 @@ impl Sprt {
         self.decided
     }
 
-    /// What is decided.
+    /// Returns the decision, once there is one.
     pub const fn decision(&self) -> Option<Decision> {
         self.decided
     }
@@ -93,7 +95,7 @@ impl Sprt {
         self.runs
     }
 
-    /// Its two probabilities.
+    /// Returns the two probabilities.
     pub const fn between(&self) -> (f64, f64) {
         (self.low, self.high)
     }

@@ -13,7 +13,7 @@ use crate::supervised::When;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Exhaustive;
 
-/// What a plan is made of: for each fault its kind and its moment.
+/// The factors of a plan: for each fault its kind and its moment.
 #[derive(Clone, Debug)]
 pub(super) struct Factors {
     faults: usize,

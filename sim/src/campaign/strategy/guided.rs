@@ -10,6 +10,7 @@ use crate::streams::{Stream, Streams};
 use crate::supervised::When;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::Module;
+use cotama_models::team::scenario::FaultTime;
 use std::collections::BTreeMap;
 
 /// Guided by coverage.
@@ -46,7 +47,7 @@ impl Strategy for Guided {
 /// A plan that came through something new.
 struct Kept {
     plan: Plan,
-    /// What it was first to come through.
+    /// Features that it was first to come through.
     new: Vec<u64>,
     /// How often it was mutated.
     mutated: u64,
@@ -207,5 +208,14 @@ fn move_it(fault: &mut Fault, space: &Space, stream: &mut Stream) {
         }
         Fault::Power(it) => it.permille = i32::try_from(stream.below(401)).unwrap_or(0) - 100,
         Fault::Operator(_) => *fault = space.answers(stream),
+        Fault::Team(it) => {
+            if let FaultTime::At(at) = &mut it.when {
+                *at = if anywhere {
+                    stream.below(space.time_ms)
+                } else {
+                    near(*at, space.time_ms, stream)
+                };
+            }
+        }
     }
 }

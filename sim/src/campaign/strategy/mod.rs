@@ -70,7 +70,7 @@ pub trait Draws {
     /// The next plan.
     fn next(&mut self) -> Plan;
 
-    /// What became of the plan before; how far it was from breaking each requirement, the least.
+    /// Learns the outcome of the plan before, and its least distance from breaking a requirement.
     fn learn(&mut self, _run: &Observed, _distance: i64) {}
 }
 
@@ -112,7 +112,7 @@ impl StrategyName {
         Self::Exhaustive,
     ];
 
-    /// Its name.
+    /// Returns the name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Uniform => "uniform",
@@ -122,6 +122,19 @@ impl StrategyName {
             Self::Guided => "guided",
             Self::Races => "races",
             Self::Exhaustive => "exhaustive",
+        }
+    }
+
+    /// Why the share of failures among its plans estimates no probability; none where it does.
+    pub const fn estimates_nothing(self) -> Option<&'static str> {
+        match self {
+            Self::Uniform | Self::Swarm => None,
+            Self::Pairwise | Self::ThreeWay => {
+                Some("its plans are the rows of an array, which are chosen to differ")
+            }
+            Self::Guided => Some("it draws by what came of the plans before"),
+            Self::Races => Some("it aims at the moments at which supervisors act"),
+            Self::Exhaustive => Some("it runs its plans in their order, each once"),
         }
     }
 

@@ -1,11 +1,12 @@
 //! The auctioneer: it announces, awards, watches, and puts up again.
 
-use super::{Variant, World};
+use super::{Planted, World};
 use crate::fleet::allocate::{denominator, is_shared};
+use crate::fleet::bid::{Offer, Share};
 use crate::fleet::message::{Award, Kind, Message, Party, Status};
 use crate::fleet::record::Record;
-use crate::fleet::task::{Offer, Scenario, Share};
 use cotama_core::team::RobotSet;
+use cotama_models::team::scenario::Scenario;
 use std::rc::Rc;
 
 /// Bids are waited for so long, in ms; who is silent is asked again after a third of it.
@@ -14,7 +15,7 @@ const BIDS: u64 = 1_500;
 const PAUSE: u64 = 1_000;
 /// And so much if nothing was awarded and nothing has changed, in ms.
 const VAIN_PAUSE: u64 = 5_000;
-/// Who was not heard of for so long is not waited for, in ms.
+/// Silence in ms after which a robot is not waited for.
 const SILENCE: u64 = 7_000;
 /// A task is reported after so many auctions without a bid although nobody was busy who could bid
 /// later.
@@ -22,7 +23,7 @@ const MOST_VAIN: u32 = 3;
 /// So many tasks are announced at once; the oldest first.
 const ANNOUNCED: usize = 32;
 
-/// Where a task is.
+/// The state of a task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum State {
     Unknown,
@@ -36,7 +37,7 @@ pub(super) enum State {
     Reported,
 }
 
-/// What the auctioneer knows of a task.
+/// The auctioneer's knowledge of a task.
 #[derive(Clone, Debug)]
 pub(super) struct Ticket {
     pub(super) state: State,
@@ -64,7 +65,7 @@ pub(super) struct Ticket {
 struct Auction {
     round: u32,
     tasks: Rc<[usize]>,
-    /// Who is waited for, and who has bid.
+    /// Robots that are waited for, and those that have bid.
     wanted: RobotSet,
     heard: RobotSet,
     bids: Vec<(usize, Rc<[Offer]>)>,
@@ -73,7 +74,7 @@ struct Auction {
     deadline: u64,
 }
 
-/// What the auctioneer knows.
+/// The state of the auctioneer.
 #[derive(Clone, Debug)]
 pub(super) struct Auctioneer {
     pub(super) address: usize,
@@ -83,7 +84,7 @@ pub(super) struct Auctioneer {
     pub(super) tickets: Vec<Ticket>,
     /// Tasks that are neither unknown nor over.
     live: Vec<usize>,
-    /// Of each robot when it was last heard of, and what it said.
+    /// Time of the last message of each robot, and its contents.
     last_heard: Vec<u64>,
     busy: RobotSet,
     unfit: RobotSet,
@@ -171,7 +172,7 @@ impl World<'_> {
         match &self.auctioneer.auction {
             Some(auction) => {
                 let (resend, late) = (self.now >= auction.resend, self.now >= auction.deadline);
-                if late && self.variant != Some(Variant::NoDeadline) {
+                if late && self.planted != Some(Planted::NoDeadline) {
                     self.award();
                 } else if resend {
                     self.ask_again();
@@ -241,7 +242,7 @@ impl World<'_> {
         self.announce_to(silent);
     }
 
-    /// Who does what, from the bids that have come.
+    /// Awards tasks from the bids that have come.
     fn award(&mut self) {
         let Some(mut auction) = self.auctioneer.auction.take() else { return };
         auction.bids.sort_by_key(|it| it.0);
@@ -260,7 +261,7 @@ impl World<'_> {
         let (round, heard) = (auction.round, auction.heard.count_ones() as usize);
         let (tasks, awards) = (auction.tasks.to_vec(), chosen.len());
         self.note(|t_ms| Record::Round { t_ms, round, tasks, bids: heard, awards });
-        // Who bids the same again is asked again when something has changed, or later.
+        // Robots that bid the same again are asked again when something has changed, or later.
         self.auctioneer.next_auction = self.now + if awards > 0 { PAUSE } else { VAIN_PAUSE };
         let mut told: RobotSet = 0;
         for (share, second) in chosen.iter().zip(&second) {
@@ -280,8 +281,15 @@ impl World<'_> {
 
     /// A task got no award in an auction.
     fn not_awarded(&mut self, task: usize, auction: &Auction) {
-        let offered = auction.bids.iter().any(|it| it.1.iter().any(|it| it.task == task));
-        let offered = offered || !auction.shares.is_empty();
+        // Offers for some roles of a plan alone never do the task.
+        let robots: Vec<usize> = auction.bids.iter().map(|it| it.0).collect();
+        let offers = |robot: usize| auction.bids.iter().filter(move |it| it.0 == robot);
+        let staffed =
+            self.allocator.can_staff(&self.scenario.tasks[task], &robots, |plan, role, robot| {
+                let this = |it: &Offer| (it.task, it.plan, it.role) == (task, plan, role);
+                offers(robot).any(|it| it.1.iter().any(this))
+            });
+        let offered = staffed || !auction.shares.is_empty();
         let engaged = self.auctioneer.engaged() | self.auctioneer.busy;
         let ticket = &mut self.auctioneer.tickets[task];
         ticket.state = State::Open;
@@ -290,14 +298,19 @@ impl World<'_> {
             return;
         }
         let complete = auction.wanted & !auction.heard == 0;
-        ticket.vain = if offered || engaged != 0 || !complete { 0 } else { ticket.vain + 1 };
+        // An auction in which somebody was not heard says nothing, for or against.
+        ticket.vain = match (offered || engaged != 0, complete) {
+            (true, _) => 0,
+            (false, true) => ticket.vain + 1,
+            (false, false) => ticket.vain,
+        };
         if ticket.vain >= MOST_VAIN {
             ticket.report = Some("nobody who is left can do it");
             self.close(task);
         }
     }
 
-    /// What the auctioneer hears.
+    /// Handles a message to the auctioneer.
     pub(super) fn auctioneer_hears(&mut self, robot: usize, message: Message) {
         let (now, auctioneer) = (self.now, &mut self.auctioneer);
         let bit: RobotSet = 1 << robot;

@@ -2,11 +2,12 @@
 //! becomes of the task.
 
 use super::auctioneer::{State, Ticket};
-use super::{LEASE, TICK, Variant, World};
+use super::{LEASE, Planted, TICK, World};
+use crate::fleet::bid::Share;
 use crate::fleet::message::{Award, AwardId, Ending, Message, Party};
 use crate::fleet::record::{Fate, Record};
-use crate::fleet::task::{ErrorClass, Share};
 use cotama_core::team::RobotSet;
+use cotama_models::team::ErrorClass;
 use cotama_models::team::Pledge;
 use std::rc::Rc;
 
@@ -106,7 +107,7 @@ impl World<'_> {
         let ticket = &mut self.auctioneer.tickets[task];
         let Some(award) = ticket.award.clone() else { return };
         let left = ticket.gone | ticket.completed;
-        let lease = self.variant != Some(Variant::NoLease);
+        let lease = self.planted != Some(Planted::NoLease);
         let held = award.robots.iter().enumerate().filter(|it| left >> it.1 & 1 == 0);
         let held: Vec<usize> =
             held.filter(|it| lease && now <= ticket.until[it.0]).map(|it| *it.1).collect();

@@ -3,18 +3,15 @@
 use super::robot::{Asking, Duty};
 use super::{Event, World};
 use crate::fleet::allocate::is_shared;
-use crate::fleet::floor::Spot;
+use crate::fleet::bid::{Offer, Whereabouts};
 use crate::fleet::message::{Message, Party};
-use crate::fleet::task::{Give, Offer, RoleSpec, Take, Whereabouts};
-use crate::supervised::PLANNING;
-use cotama_models::team::{Bid, CapabilitySet, Robot, service};
+use cotama_models::team::CapabilitySet;
+use cotama_models::team::scenario::{Outlook, RoleSpec, Spot, Take};
 use std::rc::Rc;
 
 /// A broker asks again after so long, in ms, and bids at the third time with what it has.
 const ASK_AGAIN: u64 = 200;
 const TRIES: u32 = 3;
-/// What the rounds of the decisional component take between the parts of a task, all together.
-const ROUNDS: u64 = 1_500;
 
 impl World<'_> {
     /// Tasks are announced: the broker bids, or asks bidders first.
@@ -106,19 +103,20 @@ impl World<'_> {
         robot: usize,
         round: u32,
         offers: Rc<[Offer]>,
-        coalition: Option<crate::fleet::task::Share>,
+        coalition: Option<crate::fleet::bid::Share>,
     ) {
         let message = Message::Bid { round, offers, coalition };
         self.send(Party::Robot(robot), self.auctioneer.party(), message);
     }
 
-    /// What a robot asks for the roles of these tasks: nothing where it cannot, or is busy.
+    /// Returns the offers of a robot for the roles of these tasks: none where it cannot, or is
+    /// busy.
     pub(super) fn offers(&self, robot: usize, tasks: &[usize]) -> Vec<Offer> {
         let agent = &self.robots[robot];
         if !matches!(agent.duty, Duty::Free) || !agent.is_fit() {
             return Vec::new();
         }
-        // Who has an object on board works for its task only.
+        // A robot with an object on board works for its task only.
         let tasks = tasks.iter().copied().filter(|it| agent.holds.is_none_or(|held| held == *it));
         let tasks = tasks.filter(|it| !agent.left.contains(it));
         let mut offers = Vec::new();
@@ -134,66 +132,39 @@ impl World<'_> {
         offers
     }
 
-    /// What a robot can do with the object of a task.
+    /// Returns the capabilities of a robot with regard to the object of a task.
     pub(super) fn able(&self, robot: usize, task: usize, role: &RoleSpec) -> CapabilitySet {
         let able = self.robots[robot].capabilities;
         let takes = role.take == Take::Object && self.robots[robot].holds != Some(task);
-        if takes && !self.objects[task].handle {
-            return able.without(CapabilitySet::of(&[service::GRASP_2F]));
-        }
-        able
+        if takes { able.without(self.objects[task].hidden) } else { able }
     }
 
-    /// What a role costs a robot, in ms; none where it cannot.
+    /// Returns the cost of a role for a robot, in ms; `None` where it cannot.
     fn cost(&self, robot: usize, task: usize, role: &RoleSpec) -> Option<u32> {
         let agent = &self.robots[robot];
         let able = self.able(robot, task, role);
-        if !role.role.possible(able) {
-            return None;
-        }
-        let pace = agent.driver.pace()?;
-        let [takes, gives] = self.places(robot, task, role)?;
-        let drive = |from: Spot, to: Spot| {
-            Some(PLANNING.0 + self.scenario.floor.distance(from, to)? * 1_000 / pace)
+        let outlook = Outlook {
+            able,
+            from: agent.spot,
+            pace: agent.driver.pace()?,
+            ends: self.places(robot, task, role)?,
+            holds: role.take == Take::Object && agent.holds == Some(task),
         };
-        let holds = role.take == Take::Object && agent.holds == Some(task);
-        let costs = [
-            drive(agent.spot, takes)? + ROUNDS,
-            if holds { 0 } else { role.take_ms },
-            drive(takes, gives)?,
-            role.give_ms,
-        ];
-        let skills = &self.scenario.robots[robot].skills;
-        let certain = cotama_models::team::Reliability::CERTAIN;
-        if skills.iter().all(|it| it.reliability == certain) {
-            return u32::try_from(costs.iter().sum::<u64>()).ok();
-        }
-        // Failures are counted in; what follows the last step costs nothing more.
-        let usable: Vec<_> = skills.iter().filter(|it| able.has(it.capability)).copied().collect();
-        let who = Robot { name: &self.scenario.robots[robot].name, skills: &usable };
-        let bid = Bid::for_role(&who, role.role, |_, at| {
-            costs.get(at).map_or(0, |it| u32::try_from(*it).unwrap_or(u32::MAX))
-        });
-        u32::try_from(bid?.price()).ok()
+        self.scenario.cost_ms(robot, role, &outlook)
     }
 
-    /// Where a robot takes and gives in a role; none where the object is delivered.
+    /// Returns the spots where a robot takes and gives in a role; `None` where the object is
+    /// delivered.
     pub(super) fn places(&self, robot: usize, task: usize, role: &RoleSpec) -> Option<[Spot; 2]> {
-        let takes = match role.take {
-            Take::Partner(place) | Take::Words(place) => Spot::at(place),
-            Take::Object => match self.objects[task].at {
-                Whereabouts::Lies(spot) => spot,
-                Whereabouts::Held(other) if other == robot => self.robots[robot].spot,
-                Whereabouts::Held(other) => self.spot(other),
-                Whereabouts::Delivered => return None,
-            },
+        let object = match self.objects[task].at {
+            Whereabouts::Lies(spot) => spot,
+            Whereabouts::Held(other) if other == robot => self.robots[robot].spot,
+            Whereabouts::Held(other) => self.spot(other),
+            // Nobody looks for it where the role takes none.
+            Whereabouts::Delivered if role.take == Take::Object => return None,
+            Whereabouts::Delivered => Spot::at(self.scenario.tasks[task].goal),
         };
-        let gives = match role.give {
-            Give::Goal => Spot::at(self.scenario.tasks[task].goal),
-            Give::Partner(place) => Spot::at(place),
-            Give::Nobody => takes,
-        };
-        Some([takes, gives])
+        Some(self.scenario.ends(task, role, object))
     }
 
     /// Whether some robots that can work can do a task together.
@@ -206,7 +177,7 @@ impl World<'_> {
             .iter()
             .map(|plan| {
                 let of = |role: &RoleSpec| {
-                    let able = |it: &usize| role.role.possible(self.able(*it, task, role));
+                    let able = |it: &usize| role.possible(self.able(*it, task, role));
                     fit.iter().map(able).collect()
                 };
                 plan.roles.iter().map(of).collect()

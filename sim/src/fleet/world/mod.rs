@@ -10,14 +10,16 @@ mod working;
 
 use super::allocate::Allocator;
 use super::driver::Driver;
-use super::floor::Spot;
 use super::message::{Ending, Letter, Message, Party};
 use super::network::Network;
 use super::record::{Fate, Record, Run};
-use super::task::{FaultKind, FaultTime, Object, Scenario, Stage, Whereabouts};
+use crate::fleet::bid::{Object, Whereabouts};
 use crate::kernel::Queue;
 use crate::streams::Streams;
 use auctioneer::Auctioneer;
+use cotama_models::team::CapabilitySet;
+use cotama_models::team::scenario::Spot;
+use cotama_models::team::scenario::{FaultKind, FaultTime, Scenario, Stage};
 use robot::{Agent, Duty};
 
 /// A robot says so often how it is, and looks at its terms so often, in ms.
@@ -29,7 +31,7 @@ pub(super) const LEASE: u64 = 20_000;
 /// A run ends when nothing has become known, been done or been reported for so long, in ms.
 const STUCK: u64 = 3_600_000;
 
-/// What comes next.
+/// The next event.
 #[derive(Clone, Debug)]
 enum Event {
     /// A letter arrives.
@@ -48,15 +50,15 @@ enum Event {
     Fault(usize),
 }
 
-/// How a run may differ from what it should be, for tests.
+/// A defect planted on purpose, so that it can be measured what finds it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Variant {
+pub enum Planted {
     /// Awards do not end by themselves: a robot that hears nothing works on.
     NoLease,
     /// The auctioneer waits for all bids, however long.
     NoDeadline,
-    /// Rounds of decisional components in which nothing happens are taken too.
-    EveryRound,
+    /// A robot says once that its role is over, whether it is heard or not.
+    SaysOnce,
 }
 
 /// A run under way.
@@ -78,19 +80,19 @@ pub(super) struct World<'s> {
     open: usize,
     /// When a task last became known or ended.
     stirred: u64,
-    variant: Option<Variant>,
+    planted: Option<Planted>,
 }
 
 impl<'s> World<'s> {
-    pub(super) fn new(scenario: &'s Scenario, recorded: bool, variant: Option<Variant>) -> Self {
+    pub(super) fn new(scenario: &'s Scenario, recorded: bool, planted: Option<Planted>) -> Self {
         let tasks = scenario.tasks.len();
-        let agent = |spec: &super::task::RobotSpec| {
-            let driver = Driver::new(variant == Some(Variant::EveryRound));
+        let agent = |spec: &cotama_models::team::scenario::RobotSpec| {
+            let driver = Driver::new(false);
             Agent::new(driver, Spot::at(spec.start), spec.capabilities())
         };
-        let lies = |it: &super::task::TaskSpec| Object {
+        let lies = |it: &cotama_models::team::scenario::TaskSpec| Object {
             at: Whereabouts::Lies(Spot::at(it.start)),
-            handle: true,
+            hidden: CapabilitySet::NONE,
         };
         let mut world = Self {
             scenario,
@@ -112,7 +114,7 @@ impl<'s> World<'s> {
             },
             open: tasks,
             stirred: scenario.tasks.iter().map(|it| it.arrival_ms).max().unwrap_or(0),
-            variant,
+            planted,
         };
         for (task, spec) in scenario.tasks.iter().enumerate().filter(|it| it.1.after.is_none()) {
             world.queue.push(spec.arrival_ms, 0, Event::Opens(task));
@@ -128,6 +130,13 @@ impl<'s> World<'s> {
         }
         world.queue.push(0, 2, Event::Tick);
         world
+    }
+
+    /// Takes rounds of decisional components in which nothing happens, too: they change nothing.
+    #[cfg(test)]
+    pub(super) fn in_every_round(mut self) -> Self {
+        self.robots.iter_mut().for_each(|it| it.driver = Driver::new(true));
+        self
     }
 
     /// Runs until each task is done or reported.
@@ -155,6 +164,8 @@ impl<'s> World<'s> {
         self.run.cost_ms = self.run.busy_ms + undone.sum::<u64>();
         self.run.end_ms = self.run.ended_ms.iter().copied().max().unwrap_or(0);
         (self.run.messages, self.run.lost) = (self.network.sent(), self.network.lost());
+        let energy = self.robots.iter().map(|it| it.driver.energy_mj(self.now));
+        self.run.energy_mj = energy.sum();
         self.run.out = self.robots.iter().filter(|it| !it.is_fit()).count();
         (self.run, self.records.unwrap_or_default())
     }
@@ -190,12 +201,7 @@ impl<'s> World<'s> {
     fn fault(&mut self, number: usize) {
         match self.scenario.faults[number].what {
             FaultKind::Robot(robot, mode) => {
-                self.note(|t_ms| Record::Fault {
-                    t_ms,
-                    robot: Some(robot),
-                    task: None,
-                    what: mode.name().to_owned(),
-                });
+                self.note(|t_ms| Record::Fails { t_ms, robot, mode });
                 self.robots[robot].driver.fail(self.now, mode);
                 if self.robots[robot].driver.thinks() {
                     self.wake(robot);
@@ -204,22 +210,12 @@ impl<'s> World<'s> {
                 }
             }
             FaultKind::Shifted(task) => {
-                self.note(|t_ms| Record::Fault {
-                    t_ms,
-                    robot: None,
-                    task: Some(task),
-                    what: "shifted".into(),
-                });
+                self.note(|t_ms| Record::Shifted { t_ms, task });
                 self.shifted(task);
             }
-            FaultKind::Turned(task) => {
-                self.note(|t_ms| Record::Fault {
-                    t_ms,
-                    robot: None,
-                    task: Some(task),
-                    what: "turned".into(),
-                });
-                self.objects[task].handle = false;
+            FaultKind::Turned(task, hides) => {
+                self.note(|t_ms| Record::Turned { t_ms, task });
+                self.objects[task].hidden = hides;
                 self.turned(task);
             }
         }
@@ -241,7 +237,8 @@ impl<'s> World<'s> {
             self.objects[task].at = Whereabouts::Lies(self.spot(robot));
             self.robots[robot].holds = None;
         }
-        let follows = |it: &(usize, &super::task::TaskSpec)| it.1.after == Some(task);
+        let follows =
+            |it: &(usize, &cotama_models::team::scenario::TaskSpec)| it.1.after == Some(task);
         let after: Vec<usize> =
             self.scenario.tasks.iter().enumerate().filter(follows).map(|it| it.0).collect();
         for next in after {
@@ -258,7 +255,7 @@ impl<'s> World<'s> {
         }
     }
 
-    /// Where a robot is.
+    /// Returns the spot of a robot.
     fn spot(&self, robot: usize) -> Spot {
         let agent = &self.robots[robot];
         let Some(goal) = agent.drives_to() else { return agent.spot };

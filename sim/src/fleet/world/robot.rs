@@ -1,13 +1,15 @@
 //! A robot of the team: what its broker hears and says.
 
-use super::{BEAT, Variant, World};
+use super::{BEAT, Planted, World};
+use crate::fleet::bid::Offer;
 use crate::fleet::driver::Driver;
-use crate::fleet::floor::Spot;
 use crate::fleet::message::{Award, AwardId, Ending, Message, Party, Status};
 use crate::fleet::record::Record;
-use crate::fleet::task::{ErrorClass, Offer, Stage};
 use cotama_core::team::RobotSet;
 use cotama_models::cotama::FailureMode;
+use cotama_models::team::ErrorClass;
+use cotama_models::team::scenario::Spot;
+use cotama_models::team::scenario::Stage;
 use cotama_models::team::{CapabilitySet, Pledge};
 use std::rc::Rc;
 
@@ -16,9 +18,9 @@ use std::rc::Rc;
 pub(super) struct Agent {
     pub(super) driver: Driver,
     pub(super) capabilities: CapabilitySet,
-    /// Where it stands, or began to drive.
+    /// The spot where it stands, or began to drive.
     pub(super) spot: Spot,
-    /// Where it takes and gives in its task.
+    /// The spots where it takes and gives in its task.
     pub(super) goals: [Spot; 2],
     pub(super) stage: Stage,
     pub(super) stage_since: u64,
@@ -44,7 +46,7 @@ pub(super) struct Agent {
     was_fit: bool,
 }
 
-/// What a broker asked bidders, and what they replied.
+/// The question of a broker to bidders, and their replies.
 #[derive(Clone, Debug)]
 pub(super) struct Asking {
     pub(super) round: u32,
@@ -54,11 +56,11 @@ pub(super) struct Asking {
     pub(super) answered: bool,
 }
 
-/// What a robot is about.
+/// The duty of a robot.
 #[derive(Clone, Debug)]
 pub(super) enum Duty {
     Free,
-    /// It waits until all partners have acknowledged.
+    /// The robot waits until all partners have acknowledged.
     Waiting(Work),
     Executing(Work),
 }
@@ -127,7 +129,7 @@ impl Agent {
         self.work().is_some_and(|it| it.award.id == award)
     }
 
-    /// Where it drives to, while it does.
+    /// Returns the target of its drive, while it drives.
     pub(super) fn drives_to(&self) -> Option<Spot> {
         match (&self.duty, self.stage) {
             (Duty::Executing(_), Stage::ToTake) => Some(self.goals[0]),
@@ -143,7 +145,7 @@ impl Agent {
 }
 
 impl World<'_> {
-    /// What a broker hears.
+    /// Handles a message to a broker.
     pub(super) fn hear(&mut self, robot: usize, from: Party, message: Message) {
         let me = Party::Robot(robot);
         match message {
@@ -224,7 +226,7 @@ impl World<'_> {
         let bid = agent.offered == round;
         // No award is taken twice, and none whose time is over before the robot looks again.
         let new = round > agent.taken;
-        let holds = until_ms > self.now + BEAT || self.variant == Some(Variant::NoLease);
+        let holds = until_ms > self.now + BEAT || self.planted == Some(Planted::NoLease);
         let free = matches!(agent.duty, Duty::Free) && agent.is_fit() && new;
         let role = award.robots.iter().position(|it| *it == robot);
         let Some(role) = role.filter(|_| bid && holds && free) else {
@@ -308,8 +310,8 @@ impl World<'_> {
     pub(super) fn give_back(&mut self, robot: usize, class: ErrorClass, why: &str) {
         let Some(work) = self.robots[robot].work() else { return };
         let award = Rc::clone(&work.award);
-        let (task, name) = (award.id.task, class.name().to_owned());
-        self.note(|t_ms| Record::Error { t_ms, robot, task, class: name, why: why.to_owned() });
+        let task = award.id.task;
+        self.note(|t_ms| Record::Error { t_ms, robot, task, class, why: why.to_owned() });
         self.leave(robot);
         self.say_final(robot, &award, Status::Failed(class));
     }
@@ -331,7 +333,7 @@ impl World<'_> {
         }
         let (me, desk) = (Party::Robot(robot), self.auctioneer.party());
         if let Some(work) = self.robots[robot].work() {
-            if self.now + BEAT > work.until_ms && self.variant != Some(Variant::NoLease) {
+            if self.now + BEAT > work.until_ms && self.planted != Some(Planted::NoLease) {
                 self.give_back(robot, ErrorClass::SemiRecoverable, "it hears nothing any more");
             } else {
                 let award = Rc::clone(&work.award);
@@ -351,17 +353,24 @@ impl World<'_> {
         let (fit, busy) = (agent.is_fit(), agent.work().is_some());
         let news = fit != agent.was_fit;
         agent.was_fit = fit;
-        // Who works has said so already.
+        // A robot at work has said so already.
         if news || !busy {
             self.send(me, desk, Message::Alive { busy, fit });
+        }
+        if self.planted == Some(Planted::SaysOnce) {
+            return;
         }
         for (award, status) in self.robots[robot].finals.clone() {
             self.send(me, desk, Message::Status { award, status });
         }
     }
 
-    /// The drive is cut short: the robot stands where it is.
+    /// The drive is cut short: the robot comes to stand.
     fn stop_short(&mut self, robot: usize) {
-        self.robots[robot].spot = self.spot(robot);
+        let agent = &self.robots[robot];
+        if let Some(goal) = agent.drives_to() {
+            let way = agent.driver.stand_mm(self.now);
+            self.robots[robot].spot = self.scenario.floor.gone(agent.spot, goal, way);
+        }
     }
 }

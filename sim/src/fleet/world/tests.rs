@@ -1,12 +1,13 @@
-//! What the auctioneer makes of single messages.
+//! Reactions of the auctioneer to single messages.
 
 use super::auctioneer::State;
 use super::{LEASE, World};
 use crate::fleet::Kind;
+use crate::fleet::bid::{Offer, Share};
 use crate::fleet::message::{AwardId, Message};
 use crate::fleet::record::Record;
 use crate::fleet::scenarios::{FleetOptions, fleet};
-use crate::fleet::task::{Offer, Scenario, Share};
+use cotama_models::team::scenario::Scenario;
 
 /// Two robots, one task, a network that loses nothing.
 fn two_robots() -> Scenario {

@@ -2,14 +2,17 @@
 
 use super::robot::{Agent, Duty, Work};
 use super::{Event, World};
+use crate::body::PERIOD;
+use crate::fleet::bid::Whereabouts;
 use crate::fleet::message::Status;
 use crate::fleet::record::Record;
-use crate::fleet::task::{ErrorClass, FaultTime, Give, RoleSpec, Stage, Take, Whereabouts};
-use crate::supervised::PERIOD;
+use cotama_models::cotama::drive_ms;
+use cotama_models::team::ErrorClass;
+use cotama_models::team::scenario::{FaultTime, Give, RoleSpec, Stage, Take};
 use cotama_models::team::{MOST_REPEATS, classify};
 
 impl World<'_> {
-    /// What a robot is to do in its award.
+    /// Returns the role of a robot in its award.
     fn role(&self, work: &Work) -> &RoleSpec {
         let id = work.award.id;
         &self.scenario.tasks[id.task].plans[work.award.plan].roles[work.role]
@@ -53,7 +56,7 @@ impl World<'_> {
             && !self.robots[robot].found.contains(&mode)
         {
             self.robots[robot].found.push(mode);
-            self.note(|t_ms| Record::Found { t_ms, robot, mode: mode.name().to_owned() });
+            self.note(|t_ms| Record::Found { t_ms, robot, mode });
         }
         let (stage, before) = (self.robots[robot].driver.stage(), self.robots[robot].stage);
         if let Some(it) = driven.configuration
@@ -61,11 +64,7 @@ impl World<'_> {
             && matches!(stage, Stage::ToTake | Stage::ToGive)
             && driven.found.is_none()
         {
-            self.note(|t_ms| Record::Configured {
-                t_ms,
-                robot,
-                configuration: it.name().to_owned(),
-            });
+            self.note(|t_ms| Record::Configured { t_ms, robot, configuration: it });
         }
         if stage != before {
             self.arrive(robot, before, stage);
@@ -275,7 +274,7 @@ impl World<'_> {
         let Some(next) = next.map(|it| it.max(soon)) else { return };
         if agent.next_round.is_none_or(|it| next < it || it <= self.now) {
             agent.next_round = Some(next);
-            // Of one moment robots go by their numbers: a round more shifts no draw.
+            // Robots go by their numbers at one moment: a round more shifts no draw.
             self.queue.push(next, 3 + robot as u8, Event::Round(robot));
         }
     }
@@ -295,15 +294,16 @@ impl World<'_> {
         true
     }
 
-    /// What the role under way comes to cost, with what was spent, in ms.
+    /// Returns the expected cost of the role under way, with the time spent, in ms.
     fn estimate(&self, robot: usize) -> Option<u64> {
         let agent = &self.robots[robot];
         let Duty::Executing(work) = &agent.duty else { return None };
         let role = self.role(work);
-        // Who cannot drive is stopped, or asks the operator, by its supervisors: that takes time.
+        // A robot that cannot drive is stopped, or asks the operator, by its supervisors: that
+        // takes time.
         let Some(pace) = agent.driver.pace() else { return Some(self.now - work.since) };
         let [takes, gives] = agent.goals;
-        let second = self.scenario.floor.distance(takes, gives)? * 1_000 / pace;
+        let second = drive_ms(self.scenario.floor.distance(takes, gives)?, pace);
         let left = agent.driver.left_mm(self.now) * 1_000 / pace;
         let rest = match agent.stage {
             Stage::ToTake => left + role.take_ms + second + role.give_ms,
@@ -333,7 +333,7 @@ impl World<'_> {
             let others = self.others_can(task);
             let class = classify(estimate, pledge, others, repeats, MOST_REPEATS);
             if class == ErrorClass::Recoverable {
-                let (class, why) = (class.name().to_owned(), "grasps again".to_owned());
+                let why = "grasps again".to_owned();
                 self.note(|t_ms| Record::Error { t_ms, robot, task, class, why });
                 self.enter(robot, Stage::Takes);
                 self.wake(robot);
@@ -348,7 +348,7 @@ impl World<'_> {
         for robot in self.takers(task) {
             let Some(work) = self.robots[robot].work() else { continue };
             let role = self.role(work);
-            if role.role.possible(self.able(robot, task, role)) {
+            if role.possible(self.able(robot, task, role)) {
                 continue;
             }
             let class = self.class_of_loss(task);
@@ -356,7 +356,7 @@ impl World<'_> {
         }
     }
 
-    /// Who is about to take the object of a task.
+    /// Returns the robots that are about to take the object of a task.
     fn takers(&self, task: usize) -> Vec<usize> {
         let takes = |it: &usize| {
             let agent = &self.robots[*it];

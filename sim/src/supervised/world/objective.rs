@@ -1,4 +1,4 @@
-//! What the mission is about at the moment, and how far it has come.
+//! The present objective of the mission, and the progress in it.
 
 use super::{CLOCKS, World};
 use crate::supervised::plan::Progress;
@@ -6,26 +6,26 @@ use cotama_core::player::Program;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::tables::Rest;
 
-/// What the global supervisor is about.
+/// The present objective of the global supervisor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Objective {
-    /// It has no mission yet.
+    /// The mission has not been given yet.
     Waits,
-    /// It drives: the number of the objective.
+    /// The robot drives: the number of the objective.
     Drives(usize),
-    /// It stands: the number of the objective.
+    /// The robot stands: the number of the objective.
     Stands(usize),
     /// The mission is accomplished.
     Done,
     /// The robot is to stop.
     Security,
-    /// It has stopped for good.
+    /// The robot has stopped for good.
     Safe,
 }
 
 impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S> {
-    /// What the global supervisor is about. Its places are: waiting, the objectives, done,
-    /// security, safe.
+    /// Returns the present objective. The places of the global supervisor are: waiting, the
+    /// objectives, done, security, safe.
     pub(super) fn objective(&self) -> Objective {
         let (place, count) = (self.decider.global().0 as usize, self.mission.objectives.len());
         match place.checked_sub(1) {

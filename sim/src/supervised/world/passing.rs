@@ -5,10 +5,10 @@
 //! takes each period by itself; both come to the same, which is a test.
 
 use super::objective::Objective;
-use super::{CLOCKS, Failure, PERIOD, World, first_fired};
+use super::{CLOCKS, World, first_fired};
+use crate::body::{Motion, PERIOD, PLANNING, effect};
 use crate::run::LONGEST;
-use crate::supervised::effect::{Ends, FIRMWARE_WATCHDOG, Motion, effect};
-use crate::supervised::{PLANNING, When};
+use crate::supervised::When;
 use cotama_core::player::Program;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{Body, Configuration, Modules, local};
@@ -21,29 +21,18 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         }
         let Some(periods) = self.idle_periods().filter(|it| *it > 0) else { return };
         let time = Millis(periods.saturating_mul(PERIOD.0));
-        let before = self.robot;
-        self.robot.glide(periods, PERIOD);
+        let before = self.robot.drive;
+        self.robot.drive.glide(periods, PERIOD);
         let activity = self.activity_at(before.x());
-        let (_, power) = self.planning.pace(activity, self.decider.situation().configuration());
         self.drive_well(activity, self.robot.x().0 - before.x().0);
-        self.energy_uj += power.0 * time.0;
+        self.robot.draw(self.power(activity, false), time);
         self.grow_exposures(time);
-        let (moving, situation) = (self.robot.speed().0 > 0, self.decider.situation());
-        for number in 0..self.failures.len() {
-            let it = self.failures[number];
-            let is_open = !it.over && self.run.conduct[number].detected.is_none();
-            if is_open && self.is_shown(&it, situation, moving) {
-                self.show(number, time);
-            }
-            if is_open && self.is_observable(it.mode, situation, moving) {
-                self.failures[number].seen.0 += time.0;
-            }
-        }
+        self.robot.look_on(time, &self.watch_of());
         self.run.rounds += periods;
-        self.quiet = self.quiet.saturating_add(u32::try_from(periods).unwrap_or(u32::MAX));
+        self.robot.took_quiet_rounds(periods);
         self.now.0 += time.0;
         let last = Millis(self.now.0 - PERIOD.0);
-        self.decider.idle(last, Body { at_goal: false, stands: !moving });
+        self.decider.idle(last, Body { at_goal: false, stands: !self.robot.moves() });
     }
 
     /// Whether a robot whose mission is over stands, and nothing changes that before this time:
@@ -51,7 +40,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
     pub(in crate::supervised) fn rests(&self, until: Millis) -> bool {
         let due = |when: When| match when {
             When::At(at) => at,
-            // It stands in front of it, or it would have been due.
+            // The robot stands in front of the place, or the failure would have been due.
             When::Place(_) => Millis(u64::MAX),
             When::During(state, after) => {
                 let reached = self.first.iter().find(|it| it.0 == state);
@@ -62,25 +51,25 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
                 Millis(since.map_or(u64::MAX, |it| it.0.saturating_add(after.0)))
             }
         };
-        let under_way = self
-            .failures
-            .iter()
-            .filter(|it| !it.over && effect(it.mode).motion != Motion::Mindless);
-        let changing = under_way.flat_map(|it| {
-            let later = changes(it).into_iter().flatten().filter(|at| *at >= self.now);
-            it.until.map(due).into_iter().chain(later)
+        let under_way = self.robot.failures.iter().zip(&self.until);
+        let under_way =
+            under_way.filter(|(it, _)| !it.over && effect(it.mode).motion != Motion::Mindless);
+        let changing = under_way.flat_map(|(it, until)| {
+            let later = it.changes().into_iter().flatten().filter(|at| *at >= self.now);
+            until.map(due).into_iter().chain(later)
         });
-        let calm = self.calm && self.decider.listens() && self.periods_unseen() == u64::MAX;
-        (calm || !self.thinks())
+        let unseen = self.robot.periods_unseen(&self.watch_of()) == u64::MAX;
+        let calm = self.calm && self.decider.listens() && unseen;
+        (calm || !self.robot.thinks())
             && !self.mission.recovery
-            && self.robot.speed().0 == 0
+            && !self.robot.moves()
             && self.waiting.iter().map(|it| due(it.when)).chain(changing).all(|it| it >= until)
     }
 
     /// How many periods nothing can happen in; none where something may at once.
     fn idle_periods(&self) -> Option<u64> {
         let objective = self.objective();
-        let (now, robot) = (self.now, &self.robot);
+        let (now, robot) = (self.now, &self.robot.drive);
         let mut until = self.decider.idle_until()?.0.min(LONGEST.0 - PERIOD.0);
         until = until.min(self.watching.late_at().map_or(u64::MAX, |it| it.0));
         match objective {
@@ -101,7 +90,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         let mut most = u64::MAX;
         let mut due = |when: When| match when {
             When::At(at) => until = until.min(at.0),
-            // Where the robot is when a period begins counts, so one more is before the place.
+            // The position at the start of a period counts, so one more is before the place.
             When::Place(x) => {
                 let times = robot.times_before(x, PERIOD).map_or(0, |it| it.saturating_add(1));
                 most = most.min(times);
@@ -118,9 +107,9 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             }
         };
         self.waiting.iter().for_each(|it| due(it.when));
-        for it in self.failures.iter().filter(|it| !it.over) {
-            it.until.into_iter().for_each(&mut due);
-            changes(it)
+        for (it, until) in self.robot.failures.iter().zip(&self.until).filter(|it| !it.0.over) {
+            until.iter().copied().for_each(&mut due);
+            it.changes()
                 .into_iter()
                 .flatten()
                 .filter(|at| *at >= now)
@@ -129,7 +118,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         if let Some(border) = self.next_border(robot.x()) {
             due(When::Place(border));
         }
-        most = most.min(self.periods_unseen());
+        most = most.min(self.robot.periods_unseen(&self.watch_of()));
         if let Objective::Drives(it) = objective {
             let end = self.mission.objectives[it].x_end;
             most = most.min(robot.times_before(end, PERIOD).unwrap_or(0));
@@ -138,7 +127,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         Some(most.min(until.saturating_sub(now.0).div_ceil(PERIOD.0)))
     }
 
-    /// Where the next activity of the objective begins.
+    /// Returns the start of the objective's next activity.
     fn next_border(&self, x: Millimetres) -> Option<Millimetres> {
         let scenario = self.mission.scenario();
         let at = self.activity_at(x);
@@ -151,20 +140,6 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             Objective::Drives(it) | Objective::Stands(it) => self.planning.activity(it, x.0),
             _ => 0,
         }
-    }
-
-    /// In how many periods no observer sees a failure that it does not see yet.
-    fn periods_unseen(&self) -> u64 {
-        let (moving, situation) = (self.robot.speed().0 > 0, self.decider.situation());
-        let unseen = self.failures.iter().zip(&self.run.conduct).filter(|(it, conduct)| {
-            !it.over && conduct.detected.is_none() && self.is_observable(it.mode, situation, moving)
-        });
-        let periods = unseen.filter_map(|(it, _)| {
-            let left = self.latency_ms(it.mode).checked_sub(it.seen.0)?;
-            // What was seen for long enough and raises nothing changes nothing.
-            (left > 0).then(|| left.div_ceil(PERIOD.0) - 1)
-        });
-        periods.min().unwrap_or(u64::MAX)
     }
 
     /// In how many periods no margin falls below zero, whatever the way: what is left to do gets
@@ -180,19 +155,19 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         (left(0) / PERIOD.0).min(energy).saturating_sub(1)
     }
 
-    /// What is missed goes on to be missed.
+    /// Lets the exposures to missing modules grow.
     fn grow_exposures(&mut self, time: Millis) {
-        if self.robot.speed().0 == 0 {
+        if !self.robot.moves() {
             return;
         }
         let configuration = self.decider.situation().configuration();
         let required = configuration.map_or(Modules::NONE, |it: Configuration| it.facts().required);
-        if self.broken().available().covers(required) {
+        if self.robot.broken().available().covers(required) {
             return;
         }
         self.exposed.0 += time.0;
         self.run.exposed = self.run.exposed.max(self.exposed);
-        for (it, conduct) in self.failures.iter().zip(&mut self.run.conduct) {
+        for (it, conduct) in self.robot.failures.iter().zip(&mut self.run.conduct) {
             if !it.over && !it.mode.health(it.part).available().covers(required) {
                 conduct.exposed.0 += time.0;
             }
@@ -200,20 +175,11 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
     }
 }
 
-/// When a failure changes by itself: it ends, or the micro-controller hears nothing for too long.
-fn changes(it: &Failure) -> [Option<Millis>; 2] {
-    let ends = match effect(it.mode).ends {
-        Ends::After(time) => Some(Millis(it.since.0 + time.0)),
-        Ends::Never | Ends::Helped => None,
-    };
-    let silent = matches!(effect(it.mode).motion, Motion::Silent);
-    [ends, silent.then_some(Millis(it.since.0 + FIRMWARE_WATCHDOG.0))]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::supervised::{Injection, PLANNER, Script};
+    use crate::options::Planner;
+    use crate::supervised::{Injection, Script};
     use cotama_models::cotama::{FailureMode, Module, delivery, global};
     use cotama_models::missions::{Mission, embedded};
 
@@ -235,7 +201,8 @@ mod tests {
                 let script = Script { injections, ..Script::default() };
                 let program = delivery::Program;
                 let mut world =
-                    World::start(&mission, global::NET, program, &script, PLANNER).unwrap();
+                    World::start(&mission, global::NET, program, &script, Planner::of(&mission))
+                        .unwrap();
                 while !world.period() {
                     world.pass_over();
                 }

@@ -1,8 +1,9 @@
-//! What a supervised run tells its trace: what is new in [`Run`](crate::supervised::Run), round
+//! The records of a supervised run in its trace: news of [`Run`](crate::supervised::Run), round
 //! after round.
 
 use super::objective::Objective;
-use super::{CLOCKS, PERIOD, World};
+use super::{CLOCKS, World};
+use crate::body::PERIOD;
 use crate::record::Recorder;
 use crate::supervised::{self, Conduct};
 use crate::trace::supervised::{Configured, Decision, Diagnosis, Exposure, Failure, Fired, Told};
@@ -10,7 +11,7 @@ use crate::trace::{Activity, End, Plan, Record, Request, ReturnMargin, Sample};
 use cotama_core::net::{Net, Role, Transition};
 use cotama_core::player::Program;
 use cotama_core::units::Millis;
-use cotama_models::cotama::{self, Class, Flag, Mode, Severity};
+use cotama_models::cotama::{self, Flag};
 
 /// How much of a run is recorded.
 #[derive(Debug, Default)]
@@ -81,7 +82,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
                 t_us,
                 x_mm,
                 failure: one_based(number),
-                decision: decided.name().into(),
+                decision: decided,
                 event: by.and_then(|by| self.first_output(by)).map(Into::into),
                 transition: by.map(|by| by.transition.clone()),
                 since_ms: at.0.saturating_sub(it.injected.0),
@@ -100,7 +101,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         }
         for (_, it) in &run.configurations[done.configurations..] {
             let (configuration, mode) =
-                (it.map(|it| it.name().into()), mode_name(self.decider.situation().mode()).into());
+                (it.map(|it| it.name().into()), self.decider.situation().mode());
             to.record(Record::Configuration(Configured { t_us, x_mm, configuration, mode }));
         }
         done.configurations = run.configurations.len();
@@ -122,7 +123,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         Some((net, net.transitions.iter().find(|it| it.name == fired.transition)?))
     }
 
-    /// What a transition says first.
+    /// Returns the first output of a transition.
     fn first_output(&self, fired: &supervised::Fired) -> Option<&str> {
         let (net, transition) = self.transition(fired)?;
         let said = transition.emits.first()?;
@@ -152,28 +153,29 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
 
     fn record_diagnoses<R: Recorder>(&self, done: &mut Recorded, t_us: u64, to: &mut R) {
         let x_mm = self.robot.x().0;
-        // What no available observer sees is diagnosed as nothing, and nobody learns of it.
+        // A failure that no available observer sees is diagnosed as nothing, and nobody learns of
+        // it.
         let found = |it: &Conduct| it.detected.is_some_and(|it| it.1 != cotama::Diagnosis::None);
         let new = |(it, noted): (&Conduct, &Noted)| found(it) && !noted.diagnosis;
         let news: Vec<usize> = (0..done.conduct.len())
             .filter(|&at| new((&self.run.conduct[at], &done.conduct[at])))
             .collect();
         let Some(conduct) = news.first().map(|&at| &self.run.conduct[at]) else { return };
+        // A diagnosis is judged in the round in which it is made.
+        let Some(judged) = conduct.judged else { return };
         for &at in &news {
             done.conduct[at].diagnosis = true;
         }
-        let severity = conduct.judged.map(|it| it.severity);
-        let name = |class: Option<Class>| class.map_or("", Class::name).to_owned();
         to.record(Record::Diagnosis(Diagnosis {
             t_us,
             x_mm,
             failures: news.into_iter().map(one_based).collect(),
             flags: conduct.flags.iter().map(|it: Flag| it.name().into()).collect(),
             candidates: candidates(conduct),
-            report: conduct.judged.and_then(|it| it.report).map(|it| it.name().into()),
-            severity: severity.map_or("", Severity::name).into(),
-            by_severity: name(severity.map(Severity::class)),
-            by_availability: name(conduct.judged.map(|it| it.by_availability)),
+            report: judged.report.map(|it| it.name().into()),
+            severity: judged.severity,
+            by_severity: judged.severity.class(),
+            by_availability: judged.by_availability,
         }));
     }
 
@@ -226,16 +228,15 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
     fn sample(&self, t_us: u64, used: [u64; 2], margins: [i64; 2]) -> Record {
         let activity = self.activity();
         let (_, _, planned) = self.planning.planned(activity);
-        let moves = matches!(self.objective(), Objective::Drives(_) | Objective::Stands(_));
-        let (_, real) = self.planning.pace(activity, self.decider.situation().configuration());
+        let real = self.power(activity, false);
         Record::Sample(Sample {
             t_us,
             x_mm: self.robot.x().0,
             used: used.into(),
             margins: margins.into(),
             planned_power_mw: planned.0,
-            real_power_mw: if moves { real.0 } else { 0 },
-            speed_mm_s: self.robot.speed().0,
+            real_power_mw: real.0,
+            speed_mm_s: self.robot.drive.speed().0,
         })
     }
 
@@ -301,15 +302,4 @@ fn candidates(conduct: &Conduct) -> Vec<String> {
 fn place<'n>(net: &Net<'n>, transition: &Transition<'n>) -> &'n str {
     let places = transition.give.iter().filter_map(|it| net.places.get(it.place.0 as usize));
     { places }.find(|it| it.role == Role::State).map_or("", |it| it.name)
-}
-
-/// An autonomy mode in traces.
-const fn mode_name(mode: Mode) -> &'static str {
-    match mode {
-        Mode::Rest => "rest",
-        Mode::Autonomous => "autonomous",
-        Mode::HandOver => "hand-over",
-        Mode::Teleprogrammed => "teleprogrammed",
-        Mode::Teleoperated => "teleoperated",
-    }
 }

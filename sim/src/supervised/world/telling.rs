@@ -1,27 +1,24 @@
-//! What the supervisors are told, and what they make of it.
+//! The events for the supervisors, and their reactions.
 
 use super::objective::Objective;
 use super::{CLOCKS, World};
-use crate::supervised::effect::{Ends, effect};
+use crate::body::PLANNING;
 use crate::supervised::operator::View;
-use crate::supervised::{Decided, Fired, PLANNING, Violation};
+use crate::supervised::{Fired, Violation};
 use cotama_core::net::{EventId, PlaceId, TransitionId};
 use cotama_core::player::{Firing, Names, Observer, Player, Program};
 use cotama_core::system::{Of, System};
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
-    Body, Cause, Configuration, FailureMode, Loss, Module, Report, Situation, Told, Word, delivery,
-    local,
+    Body, Cause, Class, Configuration, FailureMode, Loss, Module, Report, Situation, Told, Word,
+    delivery, local,
 };
 use cotama_models::missions::Does;
-
-/// In the third round after something was told, everybody has had his turn.
-const ANSWERED: u32 = 3;
 
 impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// The supervisors take a round, and are told one thing.
     pub(super) fn take_a_round(&mut self) {
-        // What the mission and the operator have to say waits for failures.
+        // Words of the mission and the operator wait for failures.
         let said = if self.decider.listens() { self.says() } else { None };
         let mut seen = Vec::new();
         let before = (self.decider.situation(), self.decider.global());
@@ -38,12 +35,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         }
         self.arrive_at_places(before);
         self.watch(round.told);
-        // Told in one round, decided in the next, answered in the one after: then modules in fault
-        // go on.
-        self.quiet = if self.decider.listens() { self.quiet + 1 } else { 0 };
-        if self.quiet >= ANSWERED {
-            self.laptop.answered();
-        }
+        self.robot.took_a_round(self.decider.listens());
     }
 
     /// Monitors look at what has come of a round.
@@ -52,7 +44,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         if let Some(monitor) = self.watching.look(now, player)
             && self.run.violated.is_none()
         {
-            // What is late is late because nothing fired: then what fired last stands for it.
+            // A requirement is late because nothing fired: then the last firing stands for it.
             let last = self.run.fired.last().map(|it| it.at);
             let then = self.run.fired.iter().filter(|it| Some(it.at) == last);
             let fired = then.map(|it| format!("{}.{}", it.net, it.transition)).collect();
@@ -70,9 +62,9 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         }
     }
 
-    /// Where the robot is.
+    /// Returns the state of the drive.
     fn body(&self) -> Body {
-        Body { at_goal: self.robot.x() >= self.end(), stands: self.robot.speed().0 == 0 }
+        Body { at_goal: self.robot.x() >= self.end(), stands: !self.robot.moves() }
     }
 
     /// The failure that a finding goes back to.
@@ -116,7 +108,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
                 let said = transition.emits.first().and_then(|it| net.outputs.get(it.0 as usize));
                 match (name, said) {
                     ("cs", Some(said)) => {
-                        conduct.decided.get_or_insert((at, Decided::from(said.name)));
+                        conduct.decided.get_or_insert((at, Class::of_output(said.name)));
                     }
                     ("gom" | "permit", _) => {}
                     _ => {
@@ -133,14 +125,14 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
                 if let (true, Some(at)) = (contextual, conduct(carries)) {
                     let now = self.now;
                     if let Some(conduct) = self.run.conduct.get_mut(at) {
-                        conduct.decided.get_or_insert((now, Decided::Record));
+                        conduct.decided.get_or_insert((now, Class::Record));
                     }
                 }
             }
         }
     }
 
-    /// Where the supervisors have come to, from where they were.
+    /// Notes the places that the supervisors have come to.
     fn arrive_at_places(&mut self, (before, global): (Situation, PlaceId)) {
         let after = self.decider.situation();
         if after.local != before.local {
@@ -149,8 +141,8 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             }
             let helped =
                 matches!(before.local, local::State::Teleprogrammed | local::State::Teleoperated);
-            for failure in &mut self.failures {
-                failure.over |= helped && effect(failure.mode).ends == Ends::Helped;
+            if helped {
+                self.robot.is_helped();
             }
         }
         if after.configuration() != before.configuration() {
@@ -161,7 +153,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         }
     }
 
-    /// What the mission, the planner of paths or the operator has to say, if anything.
+    /// Returns the word of the mission, the planner of paths or the operator, if any.
     fn says(&mut self) -> Option<Word> {
         let waited = |since: Millis| self.now.0.saturating_sub(since.0);
         match self.objective() {
@@ -194,19 +186,19 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
 
     /// Whether a path can be planned: the planner works.
     fn can_plan(&self) -> bool {
-        self.broken().available().covers(Configuration::Planning.facts().required)
+        self.robot.broken().available().covers(Configuration::Planning.facts().required)
     }
 
-    /// What the operator knows.
+    /// Returns the operator's knowledge.
     fn view(&self) -> View {
-        let left = self.broken().available();
+        let left = self.robot.broken().available();
         let asked_about = self.run.conduct.iter().rfind(|it| it.answered.is_some());
         let report = asked_about.and_then(|it| it.mode.rule().report);
         View {
             place: self.decider.situation().local,
             x: self.robot.x(),
             link: left.has(Module::Lan)
-                && !self.failures.iter().any(|it| it.mode == FailureMode::Opr1),
+                && !self.robot.failures.iter().any(|it| it.mode == FailureMode::Opr1),
             // Nor is he offered a camera that the robot does not rely on.
             camera: left.has(Module::Cam) && !self.decider.situation().lost.has(Loss::Camera),
             planner_failed: report == Some(Report::Planner) && self.decider.plannings_failed() < 2,
@@ -245,7 +237,7 @@ where
     None
 }
 
-/// What is seen of the supervisors, with the cause that it goes back to.
+/// An observation of the supervisors, with its cause.
 #[derive(Clone, Copy, Debug)]
 enum Seen {
     Fired(Of<TransitionId>, Cause),

@@ -16,8 +16,7 @@ use cotama_tests::textbook::systems::{OwnedSystem, random_system};
 use cotama_tests::textbook::{Game, Told};
 pub(crate) use seen::Seen;
 
-/// What is played: `W` words, up to `C` intervals, up to `S` in mailboxes, and numbers carried
-/// along.
+/// The player: `W` words, up to `C` intervals, up to `S` in mailboxes, and numbers carried along.
 pub(crate) type Played<'c, const W: usize, const C: usize, const S: usize> =
     Player<Loaded<'c, W, C, S>, W, C, S, u16>;
 
@@ -132,7 +131,7 @@ fn assert_same<const W: usize, const C: usize, const S: usize>(
     assert!(game.is_within_bounds(), "seed {seed}");
 }
 
-/// What is done from outside.
+/// An act from outside.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Act {
     Offer(Of<EventId>, u16),
@@ -241,7 +240,7 @@ pub(crate) fn plays(bytes: &[u8]) -> bool {
     };
     let (draw, mut seen) = (&mut draw, Seen::default());
     system.with(|it| {
-        // What nobody draws by chance: more words than the players here have.
+        // Systems that nobody draws by chance: more words than the players here have.
         let most = if it.is_alone() { WORDS } else { SYSTEM_WORDS };
         let fits = it.defect().is_none() && words(it).is_some_and(|it| it <= most);
         if fits {

@@ -1,4 +1,4 @@
-//! What a story has seen, so that none goes blind.
+//! Counts of a story, so that none goes blind.
 
 use super::Act;
 use cotama_core::net::TransitionId;
@@ -24,7 +24,7 @@ pub(crate) struct Seen {
     pub(crate) systems: Together,
 }
 
-/// What happens only where nets work together.
+/// Counts of events that happen only where nets work together.
 #[derive(Debug, Default)]
 pub(crate) struct Together {
     pub(crate) refused: u32,
@@ -35,11 +35,11 @@ pub(crate) struct Together {
     pub(crate) ignored: u32,
     pub(crate) mailed: u32,
     pub(crate) cleared: u32,
-    /// What was read in rounds.
+    /// Events read in rounds.
     pub(crate) read: u32,
     pub(crate) unread: u32,
     pub(crate) waiting: u32,
-    /// What was due, or enabled without an interval, and waited for room in a mailbox.
+    /// Transitions that were due, or enabled without an interval, and waited for room in a mailbox.
     pub(crate) blocked: u32,
     pub(crate) blocked_at_once: u32,
 }
@@ -86,7 +86,7 @@ impl Seen {
         *of += 1;
     }
 
-    /// What was told because of this.
+    /// Counts the events reported because of this act.
     pub(crate) fn told(&mut self, act: Act, told: &[Told], system: &System<'_>) {
         let at_once = |of: Of<TransitionId>| {
             let net = system.components[usize::from(of.component)].net;
@@ -114,7 +114,7 @@ impl Seen {
         self.systems.waiting += round.waiting;
     }
 
-    /// What can fire by itself and has not.
+    /// Counts the transitions that can fire by themselves and have not.
     pub(crate) fn blocked(&mut self, game: &Game<'_>) {
         let waits = |timed: bool| {
             let mut lines = game.book.lines.iter().enumerate();

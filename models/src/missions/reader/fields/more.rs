@@ -5,7 +5,7 @@ use crate::missions::diagnostic::Spanned;
 use toml::de::DeValue;
 
 impl<'t> Fields<'t> {
-    /// Where its errors are collected.
+    /// Returns the collector of errors.
     pub(crate) fn sink(&self) -> &'t Sink {
         self.sink
     }
@@ -36,6 +36,35 @@ impl<'t> Fields<'t> {
         let items = self.items(key, node).ok_or(Reported)?;
         let texts: Vec<_> = items.iter().map(|item| self.text_of(key, item)).collect();
         texts.into_iter().collect::<Option<_>>().ok_or(Reported)
+    }
+
+    /// A required list of lists of texts; at most `most` of them.
+    pub(crate) fn lists_of_texts(
+        &mut self,
+        key: &'static str,
+        most: usize,
+    ) -> Option<Vec<Vec<Spanned<String>>>> {
+        let node = self.required(key)?;
+        let usual = std::mem::replace(&mut self.most_entries, most);
+        let lists = self.items(key, node);
+        self.most_entries = usual;
+        let read = |list: &'t super::Node<'t>| {
+            let texts: Vec<_> =
+                self.items(key, list)?.iter().map(|item| self.text_of(key, item)).collect();
+            texts.into_iter().collect::<Option<Vec<_>>>()
+        };
+        let lists: Vec<_> = lists?.into_iter().map(read).collect();
+        lists.into_iter().collect()
+    }
+
+    /// Whether the value of a key is a table.
+    pub(crate) fn is_table(&self, key: &str) -> bool {
+        self.entries.get(key).is_some_and(|it| it.get_ref().as_table().is_some())
+    }
+
+    /// Returns the position of this table.
+    pub(crate) fn whole(&self) -> std::ops::Range<usize> {
+        self.span.clone()
     }
 
     /// [`tables`](Self::tables), with a limit of its own.

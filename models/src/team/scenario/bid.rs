@@ -1,0 +1,118 @@
+//! Bids of the robots for roles: the time of the drives and of the hands, failures counted in.
+
+use super::{Give, Place, RoleSpec, Scenario, Spot, Take};
+use crate::cotama::{Configuration, PLANNING, drive_ms};
+use crate::team::bid::Bid;
+use crate::team::capability::{CapabilitySet, Robot};
+use crate::team::reliability::Reliability;
+
+/// Time of the rounds of the decisional component between the parts of a task, all together, in ms.
+const ROUNDS: u64 = 1_500;
+
+/// The part of a robot in a role as things stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Outlook {
+    /// The capabilities with which it would do so.
+    pub able: CapabilitySet,
+    /// The place of the robot.
+    pub from: Spot,
+    /// The speed of the robot, in mm/s.
+    pub pace: u64,
+    /// The spots where it takes and where it gives.
+    pub ends: [Spot; 2],
+    /// Whether it has the object on board, and need not take it.
+    pub holds: bool,
+}
+
+/// Returns the least number that each of these numbers of roles divides: in such parts the mean of
+/// the costs of a plan's roles is whole. Plans have 16 roles at most, so it fits.
+///
+/// ```
+/// use cotama_models::team::scenario::common_denominator;
+/// assert_eq!(common_denominator([1, 2, 3, 4]), 12);
+/// ```
+pub fn common_denominator(roles: impl IntoIterator<Item = u32>) -> u32 {
+    roles.into_iter().fold(1, |all, roles| {
+        let (mut x, mut y) = (all, roles);
+        while y != 0 {
+            (x, y) = (y, x % y);
+        }
+        all / x.max(1) * roles
+    })
+}
+
+impl Scenario {
+    /// Returns the spots where a role of a task takes and gives, with the object of the task there.
+    pub fn ends(&self, task: usize, role: &RoleSpec, object: Spot) -> [Spot; 2] {
+        let takes = match role.take {
+            Take::Partner(place) | Take::Words(place) => Spot::at(place),
+            Take::Object => object,
+        };
+        let goal = self.tasks.get(task).map(|it| Spot::at(it.goal));
+        let gives = match role.give {
+            Give::Goal => goal.unwrap_or(takes),
+            Give::Partner(place) => Spot::at(place),
+            Give::Nobody => takes,
+        };
+        [takes, gives]
+    }
+
+    /// Returns the cost of a role for a robot, in ms; `None` where it cannot.
+    pub fn cost_ms(&self, robot: usize, role: &RoleSpec, outlook: &Outlook) -> Option<u32> {
+        let Outlook { able, from, pace, ends: [takes, gives], holds } = *outlook;
+        if !role.possible(able) {
+            return None;
+        }
+        let drive = |from: Spot, to: Spot| {
+            let way = self.floor.distance(from, to)?;
+            Some(PLANNING.0.saturating_add(drive_ms(way, pace)))
+        };
+        let costs = [
+            drive(from, takes)?.saturating_add(ROUNDS),
+            if holds { 0 } else { role.take_ms },
+            drive(takes, gives)?,
+            role.give_ms,
+        ];
+        let sum = |costs: &[u64]| costs.iter().fold(0_u64, |sum, it| sum.saturating_add(*it));
+        let who = self.robots.get(robot)?;
+        if who.skills.iter().all(|it| it.reliability == Reliability::CERTAIN) {
+            return u32::try_from(sum(&costs)).ok();
+        }
+        // Failures are counted in. The last action of a role costs all that is still to be done;
+        // one that follows the last step costs nothing more.
+        let usable: Vec<_> =
+            who.skills.iter().filter(|it| able.has(it.capability)).copied().collect();
+        let who = Robot { name: &who.name, skills: &usable };
+        let last = role.actions.len().saturating_sub(1);
+        let cost = |at: usize| {
+            let rest = costs.get(at..).unwrap_or_default();
+            let own = rest.first().copied().unwrap_or(0);
+            u32::try_from(if at == last { sum(rest) } else { own }).unwrap_or(u32::MAX)
+        };
+        let bid = role.with_role(|role| Bid::for_role(&who, role, |_, at| cost(at)));
+        u32::try_from(bid?.price()).ok()
+    }
+
+    /// Returns the cost of a role of a task for a robot at the start of a run, in ms: nothing has
+    /// failed, each robot and each object is at its place. `None` where it cannot.
+    ///
+    /// ```
+    /// use cotama_models::team::scenario::service;
+    /// let service = service().unwrap();
+    /// let order = &service.tasks[0].plans[0].roles[0];
+    /// let bids = [0, 1, 2, 3].map(|robot| service.bid(robot, 0, order));
+    /// assert!(bids[0].is_some() && bids[1..] == [None, None, None]); // Eddie alone speaks
+    /// ```
+    pub fn bid(&self, robot: usize, task: usize, role: &RoleSpec) -> Option<u32> {
+        let (who, object) = (self.robots.get(robot)?, self.tasks.get(task)?.start);
+        let at = |place: Place| Spot::at(place);
+        let outlook = Outlook {
+            able: who.capabilities(),
+            from: at(who.start),
+            pace: Configuration::FollowingOptimal.facts().speed.0,
+            ends: self.ends(task, role, at(object)),
+            holds: false,
+        };
+        self.cost_ms(robot, role, &outlook)
+    }
+}

@@ -1,0 +1,419 @@
+//! Reading a team's file.
+
+mod task;
+
+use super::{
+    Fault, FaultKind, FaultTime, Floor, Formation, MAX_ROBOTS, Method, Place, Quality, RobotSpec,
+    Scenario, Stage,
+};
+use crate::cotama::FailureMode;
+use crate::missions::faults::Expected;
+use crate::missions::reader::fields::{Fields, Reported, Sink, document, document_of_either};
+use crate::missions::{Diagnostic, MissionErrors, Spanned};
+use crate::names::{quoted, unknown};
+use crate::team::{Capability, CapabilitySet, Reliability, Skill};
+use std::ops::{Range, RangeInclusive};
+
+/// Value of `format` in files of teams.
+pub const FORMAT: &str = "cotama-team/1";
+/// Value of `format` in files of a team's faults.
+pub const FAULTS: &str = "cotama-team-faults/1";
+/// The most tasks, faults, and ways between places of a file.
+const MANY: usize = 10_000;
+/// Times in ms, up to a day.
+const AMOUNTS: RangeInclusive<i64> = 0..=86_400_000;
+/// Lengths of ways in mm, up to 10 km.
+const LENGTHS: RangeInclusive<i64> = 1..=10_000_000;
+const PERMILLE: RangeInclusive<i64> = 0..=1_000;
+
+/// Names of a file that others refer to.
+#[derive(Default)]
+struct Names {
+    places: Vec<String>,
+    skills: Vec<String>,
+    robots: Vec<String>,
+    tasks: Vec<String>,
+}
+
+impl Scenario {
+    /// Reads a `cotama-team/1` file, in TOML, or in JSON with the same keys. `source_name` is its
+    /// name in messages. The seed is 0.
+    ///
+    /// # Errors
+    /// All errors of the file, with their places.
+    ///
+    /// ```
+    /// use cotama_models::team::scenario::Scenario;
+    /// let text = "format = 'cotama-team/1'\nname = 'x'\nskils = []\n";
+    /// let errors = Scenario::parse("x.toml", text).unwrap_err().to_string();
+    /// let first = "x.toml:3:1: unknown key `skils` in the file; did you mean `skills`?";
+    /// assert!(errors.contains(first), "{errors}");
+    /// ```
+    pub fn parse(source_name: &str, text: &str) -> Result<Self, MissionErrors> {
+        let sink = Sink::default();
+        let scenario = document_of_either(text, &sink, FORMAT, scenario);
+        match scenario.filter(|_| sink.is_empty()) {
+            Some(scenario) => Ok(scenario),
+            None => Err(MissionErrors::new(source_name, text, sink.into_diagnostics())),
+        }
+    }
+}
+
+/// The faults of a team from a file, and the end that it records.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FaultsOfTeam {
+    /// The faults, in place of those of the team.
+    pub faults: Vec<Fault>,
+    /// How a run with them ended.
+    pub expected: Option<Expected>,
+}
+
+impl FaultsOfTeam {
+    /// The team that a file names, by the name of an embedded one or its path; without it nothing
+    /// else of the file can be read.
+    pub fn team_of(text: &str) -> Option<String> {
+        let file: toml::Table = text.parse().ok()?;
+        Some(file.get("expected")?.get("mission")?.as_str()?.to_owned())
+    }
+}
+
+impl Scenario {
+    /// Reads a `cotama-team-faults/1` file for this team. `source_name` is its name in messages.
+    ///
+    /// # Errors
+    /// All errors of the file, with their places.
+    ///
+    /// ```
+    /// use cotama_models::team::scenario::{FaultTime, service};
+    /// let service = service().unwrap();
+    /// let text = service.faults_to_toml(&service.faults[2..]);
+    /// assert!(text.contains("robot = \"Eddie\", mode = \"EST1\""), "{text}");
+    /// let read = service.faults_of("f.toml", &text).unwrap();
+    /// assert_eq!(read.faults, service.faults[2..]);
+    /// ```
+    pub fn faults_of(&self, source_name: &str, text: &str) -> Result<FaultsOfTeam, MissionErrors> {
+        let sink = Sink::default();
+        let names = Names {
+            places: Vec::new(),
+            skills: self.skills.clone(),
+            robots: self.robots.iter().map(|it| it.name.clone()).collect(),
+            tasks: self.tasks.iter().map(|it| it.name.clone()).collect(),
+        };
+        let read = document(text, &sink, FAULTS, |mut fields| {
+            let faults = fields.tables_up_to("fault", false, MANY).unwrap_or_default();
+            let faults: Vec<_> = faults.into_iter().map(|it| fault(it, &names)).collect();
+            let expected = fields.optional_table("expected").ok();
+            let expected = expected.map(|it| it.map(crate::missions::reader::expected));
+            fields.finish();
+            let expected = match expected? {
+                Some(it) => Some(it?),
+                None => None,
+            };
+            Some(FaultsOfTeam { faults: faults.into_iter().collect::<Option<_>>()?, expected })
+        });
+        match read.filter(|_| sink.is_empty()) {
+            Some(read) => Ok(read),
+            None => Err(MissionErrors::new(source_name, text, sink.into_diagnostics())),
+        }
+    }
+}
+
+fn scenario(mut fields: Fields<'_>) -> Option<Scenario> {
+    let name = fields.text("name");
+    let mut names = Names::default();
+    let skills = fields.optional_texts("skills").unwrap_or_default();
+    for it in &skills {
+        skill(&fields, it, &mut names);
+    }
+    let network = network(fields.optional_table("network"));
+    let floor = fields.table("floor").and_then(|it| floor(it, &mut names));
+    let robots = fields.tables_up_to("robot", true, MAX_ROBOTS).unwrap_or_default();
+    let robots: Vec<_> = robots.into_iter().map(|it| robot(it, &mut names)).collect();
+    let auction = auction(fields.optional_table("auction"), &names);
+    let tasks = fields.tables_up_to("task", true, MANY).unwrap_or_default();
+    let tasks: Vec<_> = tasks.into_iter().map(|it| task::task(it, &mut names)).collect();
+    let faults = fields.tables_up_to("fault", false, MANY).unwrap_or_default();
+    let faults: Vec<_> = faults.into_iter().map(|it| fault(it, &names)).collect();
+    fields.finish();
+    let (method, formation, auctioneer, slack_permille, second_best) = auction?;
+    Some(Scenario {
+        name: name?.value,
+        skills: names.skills,
+        floor: floor?,
+        robots: robots.into_iter().collect::<Option<_>>()?,
+        tasks: tasks.into_iter().collect::<Option<_>>()?,
+        faults: faults.into_iter().collect::<Option<_>>()?,
+        network: network?,
+        method,
+        formation,
+        auctioneer,
+        slack_permille,
+        second_best,
+        seed: 0,
+    })
+}
+
+/// The capability of a name, which is new or known.
+fn skill(fields: &Fields<'_>, name: &Spanned<String>, names: &mut Names) -> Option<Capability> {
+    let known = names.skills.iter().position(|it| *it == name.value);
+    let number = known.unwrap_or(names.skills.len());
+    let capability = u8::try_from(number).ok().and_then(Capability::new);
+    if name.value.is_empty() || name.value.contains(['|', ' ']) {
+        let message = format!("{} is no name of a skill", quoted(&name.value));
+        let help = "use a name without blanks and `|`";
+        fields.report(Diagnostic::new(name.span.clone(), message, "no name").help(help));
+        return None;
+    }
+    if capability.is_none() {
+        let message = format!("there are more than {} skills", Capability::COUNT);
+        fields.report(Diagnostic::new(name.span.clone(), message, "one too many"));
+    } else if known.is_none() {
+        names.skills.push(name.value.clone());
+    }
+    capability
+}
+
+/// The position of a name among known ones; reports it when it is not there.
+fn among(
+    fields: &Fields<'_>,
+    name: Option<&Spanned<String>>,
+    what: &str,
+    known: &[String],
+) -> Option<usize> {
+    let name = name?;
+    fields.index_of(name, what, known.iter().map(String::as_str))
+}
+
+fn place(fields: &Fields<'_>, name: Option<&Spanned<String>>, names: &Names) -> Option<Place> {
+    // Where no place could be read, that is the error.
+    if names.places.is_empty() {
+        return None;
+    }
+    among(fields, name, "place", &names.places).map(Place)
+}
+
+/// A name that must be new.
+fn new_name(fields: &mut Fields<'_>, what: &str, known: &mut Vec<String>) -> Option<String> {
+    let name = fields.text("name");
+    let found = name.as_ref().filter(|it| {
+        let twice = known.contains(&it.value);
+        if twice || it.value.is_empty() {
+            let why = if twice { "names two of them" } else { "is empty" };
+            let message = format!("the {what} {} {why}", quoted(&it.value));
+            let help = "give each a name of its own";
+            fields.report(Diagnostic::new(it.span.clone(), message, "not a new name").help(help));
+        }
+        !twice && !it.value.is_empty()
+    });
+    // A name that is wrong holds its place, and is referred to by nobody.
+    known.push(found.map_or_else(String::new, |it| it.value.clone()));
+    found.map(|it| it.value.clone())
+}
+
+fn network(fields: Result<Option<Fields<'_>>, Reported>) -> Option<Quality> {
+    let Some(mut fields) = fields.ok()? else { return Some(Quality::OFFICE) };
+    let usual = Quality::OFFICE;
+    let delay = fields.optional_integer("delay_ms", AMOUNTS);
+    let jitter = fields.optional_integer("jitter_ms", AMOUNTS);
+    let loss = fields.optional_integer("loss_permille", PERMILLE);
+    let copies = fields.optional_integer("copies_permille", PERMILLE);
+    fields.finish();
+    Some(Quality {
+        delay_ms: delay.ok()?.unwrap_or(usual.delay_ms),
+        jitter_ms: jitter.ok()?.unwrap_or(usual.jitter_ms),
+        loss_permille: loss.ok()?.unwrap_or(usual.loss_permille),
+        copies_permille: copies.ok()?.unwrap_or(usual.copies_permille),
+    })
+}
+
+type Auction = (Method, Formation, Option<usize>, u32, bool);
+
+fn auction(fields: Result<Option<Fields<'_>>, Reported>, names: &Names) -> Option<Auction> {
+    let usual = (Method::Optimal, Formation::Central, None, 1_000, false);
+    let Some(mut fields) = fields.ok()? else { return Some(usual) };
+    let method = one_of(&mut fields, "method", "method", Method::ALL.map(|it| (it.name(), it)));
+    let formation = Formation::ALL.map(|it| (it.name(), it));
+    let formation = one_of(&mut fields, "formation", "formation", formation);
+    let auctioneer = match fields.optional_text("auctioneer") {
+        Ok(None) => Ok(None),
+        Ok(name) => among(&fields, name.as_ref(), "robot", &names.robots).map(Some).ok_or(Reported),
+        Err(it) => Err(it),
+    };
+    let slack = fields.optional_integer("slack_permille", 0..=1_000_000);
+    let second_best = fields.optional_flag("second_best");
+    fields.finish();
+    Some((
+        method.ok()?.unwrap_or_default(),
+        formation.ok()?.unwrap_or_default(),
+        auctioneer.ok()?,
+        slack.ok()?.unwrap_or(1_000),
+        second_best.ok()?.unwrap_or(false),
+    ))
+}
+
+/// A text out of a fixed set, which may be left out.
+fn one_of<T: Copy, const N: usize>(
+    fields: &mut Fields<'_>,
+    key: &'static str,
+    what: &str,
+    known: [(&'static str, T); N],
+) -> Result<Option<T>, Reported> {
+    let Some(found) = fields.optional_text(key)? else { return Ok(None) };
+    let at = fields.index_of(&found, what, known.iter().map(|it| it.0)).ok_or(Reported)?;
+    Ok(Some(known[at].1))
+}
+
+fn floor(mut fields: Fields<'_>, names: &mut Names) -> Option<Floor> {
+    let places = fields.texts("places");
+    for it in places.iter().flatten() {
+        if names.places.contains(&it.value) {
+            let message = format!("the place {} is there twice", quoted(&it.value));
+            fields.report(Diagnostic::new(it.span.clone(), message, "twice"));
+        }
+        names.places.push(it.value.clone());
+    }
+    let ways = fields.tables_up_to("way", false, MANY).unwrap_or_default();
+    let ways: Vec<_> = ways.into_iter().map(|it| way(it, names)).collect();
+    fields.finish();
+    places?;
+    let names: Vec<&str> = names.places.iter().map(String::as_str).collect();
+    Some(Floor::new(&names, &ways.into_iter().collect::<Option<Vec<_>>>()?))
+}
+
+fn way(mut fields: Fields<'_>, names: &Names) -> Option<(usize, usize, u64)> {
+    let between = fields.texts("between");
+    let ends = between.as_ref().and_then(|it| match &it[..] {
+        [a, b] if a.value != b.value => {
+            let ends = [a, b].map(|it| place(&fields, Some(it), names));
+            Some((ends[0]?.0, ends[1]?.0))
+        }
+        _ => {
+            let span = fields.span_of("between");
+            let message = "a way leads from one place to another";
+            let help = "write two places, as `[\"hall\", \"kitchen\"]`";
+            fields.report(Diagnostic::new(span, message, "not two places").help(help));
+            None
+        }
+    });
+    let length = fields.integer("length_mm", LENGTHS);
+    fields.finish();
+    let (a, b) = ends?;
+    Some((a, b, length?))
+}
+
+fn robot(mut fields: Fields<'_>, names: &mut Names) -> Option<RobotSpec> {
+    let name = new_name(&mut fields, "robot", &mut names.robots);
+    let at = fields.text("at");
+    let start = place(&fields, at.as_ref(), names);
+    let skills = fields.optional_texts("skills").ok();
+    let skills: Option<Vec<_>> =
+        skills.map(|it| it.iter().map(|it| skilled(&fields, it, names)).collect::<Vec<_>>());
+    fields.finish();
+    Some(RobotSpec {
+        name: name?,
+        skills: skills?.into_iter().collect::<Option<_>>()?,
+        start: start?,
+    })
+}
+
+/// A skill and its reliability: `grasp`, `grasp 950/1000`, `grasp 19+1` (19 uses succeeded, one
+/// failed).
+fn skilled(fields: &Fields<'_>, text: &Spanned<String>, names: &mut Names) -> Option<Skill> {
+    let (name, reliability) = match text.value.split_once(' ') {
+        None => (text.value.as_str(), Some(Reliability::CERTAIN)),
+        Some((name, how)) => (name, reliability(how.trim())),
+    };
+    let Some(reliability) = reliability else {
+        let message = format!("{} says no reliability", quoted(&text.value));
+        let help = "write `grasp 950/1000` for a probability, `grasp 19+1` for 19 uses that \
+                    succeeded and one that failed";
+        fields.report(Diagnostic::new(text.span.clone(), message, "not a skill").help(help));
+        return None;
+    };
+    let name = Spanned { value: name.to_owned(), span: text.span.clone() };
+    let capability = skill(fields, &name, names)?;
+    Some(Skill { capability, reliability })
+}
+
+fn reliability(text: &str) -> Option<Reliability> {
+    if let Some(parts) = text.strip_suffix("/1000") {
+        return parts.parse().ok().filter(|it| *it <= 1_000).map(Reliability::Permille);
+    }
+    let (succeeded, failed) = text.split_once('+')?;
+    Some(Reliability::Uses { succeeded: succeeded.parse().ok()?, failed: failed.parse().ok()? })
+}
+
+fn fault(mut fields: Fields<'_>, names: &Names) -> Option<Fault> {
+    let span = fields.whole();
+    let when = moment(&mut fields, names, span.clone());
+    let what = [fields.has("robot"), fields.has("shifts"), fields.has("turns")];
+    let what = match what {
+        [true, false, false] => {
+            let robot = fields.text("robot");
+            let robot = among(&fields, robot.as_ref(), "robot", &names.robots);
+            let mode = fields.text("mode");
+            let modes = || FailureMode::ALL.iter().map(|it| it.name());
+            let mode = mode.and_then(|it| fields.index_of(&it, "failure mode", modes()));
+            robot.zip(mode).map(|(robot, mode)| FaultKind::Robot(robot, FailureMode::ALL[mode]))
+        }
+        [false, true, false] => {
+            let task = fields.text("shifts");
+            among(&fields, task.as_ref(), "task", &names.tasks).map(FaultKind::Shifted)
+        }
+        [false, false, true] => {
+            let task = fields.text("turns");
+            let task = among(&fields, task.as_ref(), "task", &names.tasks);
+            let hides = fields.texts("hides").unwrap_or_default();
+            let hides = hides.iter().map(|it| {
+                let at = among(&fields, Some(it), "skill", &names.skills)?;
+                Capability::new(u8::try_from(at).ok()?)
+            });
+            let hides = hides.collect::<Option<Vec<_>>>();
+            task.zip(hides).map(|(it, hides)| FaultKind::Turned(it, CapabilitySet::of(&hides)))
+        }
+        _ => {
+            let message = "a fault is of one robot, or of the object of one task";
+            let help = "write `robot` and `mode`, or `shifts`, or `turns` and `hides`";
+            fields.report(Diagnostic::new(span, message, "one of these").help(help));
+            fields.abandon();
+            return None;
+        }
+    };
+    fields.finish();
+    Some(Fault { when: when?, what: what? })
+}
+
+/// When a fault happens: `at_ms`, or `while` a robot is in a `stage` `of` a task.
+fn moment(fields: &mut Fields<'_>, names: &Names, span: Range<usize>) -> Option<FaultTime> {
+    if !fields.has("while") {
+        return fields.integer("at_ms", AMOUNTS).map(FaultTime::At);
+    }
+    if fields.has("at_ms") {
+        let message = "a fault has one moment";
+        let help = "leave out `at_ms`, or `while`";
+        fields.report(Diagnostic::new(span, message, "two moments").help(help));
+        let _ = fields.optional_integer::<u64>("at_ms", AMOUNTS);
+    }
+    let robot = fields.text("while");
+    let robot = among(fields, robot.as_ref(), "robot", &names.robots);
+    let stage = fields.text("stage");
+    let stages = || Stage::ALL.iter().map(|it| it.name());
+    let stage = stage.and_then(|it| fields.index_of(&it, "stage", stages()));
+    let task = fields.text("of");
+    let task = among(fields, task.as_ref(), "task", &names.tasks);
+    let time = fields.optional_integer("time", 1..=1_000_000);
+    let after_ms = fields.optional_integer("after_ms", AMOUNTS);
+    Some(FaultTime::During {
+        robot: robot?,
+        task: task?,
+        stage: Stage::ALL[stage?],
+        time: time.ok()?.unwrap_or(1),
+        after_ms: after_ms.ok()?.unwrap_or(0),
+    })
+}
+
+/// Reports a name that is not known, with the nearest one.
+fn not_known(fields: &Fields<'_>, name: &str, span: Range<usize>, what: &str, known: &[String]) {
+    let (message, help) = unknown(what, name, known.iter().map(String::as_str));
+    fields.report(Diagnostic::new(span, message, "not known").help(help));
+}

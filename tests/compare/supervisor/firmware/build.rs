@@ -1,8 +1,0 @@
-//! Where the linker finds the memory, and what it makes of it.
-
-fn main() {
-    println!("cargo:rerun-if-changed=memory.x");
-    println!("cargo:rustc-link-search={}", std::env::var("CARGO_MANIFEST_DIR").unwrap());
-    println!("cargo:rustc-link-arg-bins=-Tlink.x");
-    println!("cargo:rustc-link-arg-bins=--nmagic"); // sections are not aligned to pages
-}

@@ -1,0 +1,112 @@
+//! The entry points of the decisional level, and of teams of eight robots: linked alone, each keeps
+//! its own code and tables only.
+#![no_std]
+
+use core::panic::PanicInfo;
+use cotama_core::allocation::MemoryError;
+use cotama_core::executive::Happening;
+use cotama_core::hardware::Equipment;
+use cotama_core::monitor::Request;
+use cotama_core::team::winners::{
+    Column, Level, Open, PlanEntry, Slot, Solved, Winners, WinnersMemory,
+};
+use cotama_core::team::{AssignmentError, Bottleneck, Costs, Fixed, Team, assign, bottleneck};
+use cotama_core::units::{Micros, Millis};
+use cotama_models::cotama::load::Load;
+use cotama_models::cotama::{Body, DecisionalLevel, Finding, Perceived, Requests, Told, Word};
+use cotama_models::missions::tables::Rest;
+use decisional_level::Robot;
+
+// `no_mangle` counts as unsafe because two equal names would meet at link time: these begin with
+// `robot_`, which nothing else does, and the linker starts at them.
+macro_rules! entries {
+    ($(
+        $(#[$doc:meta])* $name:ident($($arg:ident: $type:ty),*) $(-> $out:ty)? = $body:expr;
+    )*) => {$(
+        $(#[$doc])*
+        #[unsafe(no_mangle)]
+        #[inline(never)]
+        pub fn $name($($arg: $type),*) $(-> $out)? { $body }
+    )*};
+}
+
+entries! {
+    /// At rest.
+    robot_new(load: Load) -> Option<Robot> = Robot::new(load);
+    /// An event from outside.
+    robot_tell(level: &mut DecisionalLevel, told: Told) =
+        decisional_level::reach::tell(level, told);
+    /// A round.
+    robot_round(level: &mut DecisionalLevel) = decisional_level::reach::round(level);
+    /// Flags: diagnosed, judged, planned around, queued to be told.
+    robot_perceive(robot: &mut Robot, now: Millis, seen: Perceived) -> Option<Finding> =
+        robot.perceive(now, seen);
+    /// A round of all of it, with everything that fires shown to a witness.
+    robot_decide(
+        robot: &mut Robot, now: Millis, said: Option<Word>, body: Body, fired: &mut u32
+    ) -> (Option<Told>, Requests) = robot.round(now, said, body, fired);
+    /// Time, a job that is done, a fault that was answered.
+    robot_schedule(
+        robot: &mut Robot, now: Micros, done: Option<usize>, answered: Option<usize>
+    ) -> Option<Happening> = robot.schedule(now, done, answered);
+    /// Consumption.
+    robot_watch(robot: &mut Robot, spent: &[u64; 2], rest: &[u64; 2]) -> Option<Request> =
+        robot.watch(spent, rest);
+    /// A plan by the rule of the paper.
+    robot_plan_by_rule(robot: &mut Robot, first: usize, rest: Rest, units: Equipment) -> bool =
+        robot.mission().plan_by_rule(first, rest, units);
+    /// A plan by the exact allocator.
+    robot_plan_exactly(robot: &mut Robot, first: usize, rest: Rest, units: Equipment) -> bool =
+        robot.mission().plan_exactly(first, rest, units);
+    /// Roles to robots at the least sum.
+    robot_assign(
+        costs: &Costs<'_>, memory: &mut Fixed<i32, 8, 8>
+    ) -> Result<u64, AssignmentError> = assign(costs, &mut memory.memory());
+    /// Roles to robots with the largest cost as small as can be.
+    robot_bottleneck(
+        costs: &Costs<'_>, memory: &mut Fixed<i32, 8, 8>
+    ) -> Result<Bottleneck, AssignmentError> = bottleneck(costs, &mut memory.memory());
+    /// All tasks of eight robots at once.
+    robot_joint(
+        team: &Team<'_>, memory: WinnersMemory<'_, 8>, steps: u64
+    ) -> Result<Solved, MemoryError> = Winners::new(memory).solve(team, steps);
+}
+
+/// Memory for eight robots and four tasks of two roles.
+pub struct TeamRoom {
+    roles: [[i64; 8]; 8],
+    plans: [PlanEntry; 4],
+    slots: [Slot; 4],
+    columns: [Column; 256],
+    open: [Open; 17],
+    levels: [Level<8>; 9],
+}
+
+impl TeamRoom {
+    /// Unused.
+    pub const EMPTY: Self = Self {
+        roles: [[0; 8]; 8],
+        plans: [PlanEntry::EMPTY; 4],
+        slots: [Slot::EMPTY; 4],
+        columns: [Column::EMPTY; 256],
+        open: [Open::EMPTY; 17],
+        levels: [Level::EMPTY; 9],
+    };
+
+    /// The memory.
+    pub fn memory(&mut self) -> WinnersMemory<'_, 8> {
+        WinnersMemory {
+            roles: &mut self.roles,
+            plans: &mut self.plans,
+            slots: &mut self.slots,
+            columns: &mut self.columns,
+            open: &mut self.open,
+            levels: &mut self.levels,
+        }
+    }
+}
+
+#[panic_handler]
+fn stop(_: &PanicInfo<'_>) -> ! {
+    semihosting::process::exit(101)
+}

@@ -1,0 +1,9 @@
+//! A net or a system as a drawing: SVG, and the languages of Graphviz and Mermaid.
+
+pub mod dot;
+pub mod figure;
+mod layout;
+pub mod matrix;
+pub mod mermaid;
+pub mod overview;
+pub mod svg;
