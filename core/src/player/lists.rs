@@ -81,7 +81,7 @@ macro_rules! borrowed {
             pub bounded: bool,
         }
 
-        /// The lists of a [`Code`] to be filled, as long as [`size`] says.
+        /// The lists of a [`Code`] to be filled, as long as [`Size`] says.
         #[derive(Debug)]
         #[expect(missing_docs, reason = "they are those of `Code`")]
         pub struct Lists<'l, const W: usize> {
