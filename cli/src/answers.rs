@@ -24,6 +24,8 @@ pub(crate) struct ListAnswer {
     pub(crate) missions: Vec<Listed>,
     /// Models.
     pub(crate) models: Vec<Listed>,
+    /// Robots, for `check`, `show` and what takes a model.
+    pub(crate) robots: Vec<Listed>,
     /// Scenarios.
     pub(crate) scenarios: Vec<Listed>,
     /// Maps.

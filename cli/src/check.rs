@@ -124,7 +124,7 @@ fn once(args: &CheckArgs, screen: &Screen, last_word: &LastWord) -> Result<Exit,
             Screen::raw((line(property, &found, budget.jobs) + "\n").as_bytes())?;
         }
         let mut row = row(subject, property, &found, engine, seconds);
-        (row.id, row.sentence) = (requirement.map(|it| it.id), requirement.map(|it| it.sentence));
+        (row.id, row.sentence) = requirement.map(|it| (it.id.clone(), it.sentence.clone())).unzip();
         row.certificate = files.certificate(position, subject, property, &found, screen)?;
         let mut text = None;
         match explained::diagnosis(subject, property, &found) {

@@ -44,15 +44,23 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
     let style = args.style.unwrap_or(DrawnAs::Auto);
     let name = &args.model.model;
     let text = match (model::find(name)?, args.semantics) {
-        (Found::System(_), None) if format == Format::Svg && args.style.is_some() => {
+        (Found::System(_) | Found::Robot(_), None)
+            if format == Format::Svg && args.style.is_some() =>
+        {
             let message = "--style: the drawing of a system is of its nets and what they say";
             return Err(
                 Failure::new(message).help("--semantics rounds draws the places of all its nets")
             );
         }
         (Found::System(system), None) if format == Format::Svg => overview::write(system),
+        (Found::Robot(it), None) if format == Format::Svg => it.system.with(overview::write),
         (Found::System(system), semantics) => {
             let net = one_net(system, semantics.unwrap_or(Semantics::Rounds))?;
+            written(&net.view().net(), format, style, screen)?
+        }
+        (Found::Robot(it), semantics) => {
+            let semantics = semantics.unwrap_or(Semantics::Rounds);
+            let net = it.system.with(|system| one_net(system, semantics))?;
             written(&net.view().net(), format, style, screen)?
         }
         (_, Some(_)) => {

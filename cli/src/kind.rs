@@ -30,10 +30,12 @@ pub(crate) enum Kind {
     TeamFaults,
     TeamTrace,
     Fmeca,
+    Robot,
 }
 
 /// The kinds that hold a model.
-pub(crate) const MODELS: [Kind; 4] = [Kind::Pnml, Kind::JsonNet, Kind::Tina, Kind::TeamAtWork];
+pub(crate) const MODELS: [Kind; 5] =
+    [Kind::Pnml, Kind::JsonNet, Kind::Tina, Kind::TeamAtWork, Kind::Robot];
 /// So many bytes tell.
 const LOOKED_AT: usize = 64 << 10;
 
@@ -60,6 +62,7 @@ impl Kind {
             Some(it) if it.starts_with("panorama-faults/") => return Some(Self::Faults),
             Some(it) if it.starts_with("cotama-fmeca/") => return Some(Self::Fmeca),
             Some(it) if it.starts_with("cotama-team-faults/") => return Some(Self::TeamFaults),
+            Some(it) if it.starts_with("cotama-robot/") => return Some(Self::Robot),
             Some(it) if it.starts_with("cotama-team/") => return Some(Self::TeamAtWork),
             _ => {}
         }
@@ -78,8 +81,11 @@ impl Kind {
             ("cotama-recording/", Self::Recording),
         ];
         let format = start.split_once("\"format\"").map(|it| it.1.trim_start_matches([':', ' ']));
-        let formats =
-            [("\"cotama-team-assignment/", Self::Team), ("\"cotama-team/", Self::TeamAtWork)];
+        let formats = [
+            ("\"cotama-team-assignment/", Self::Team),
+            ("\"cotama-team/", Self::TeamAtWork),
+            ("\"cotama-robot/", Self::Robot),
+        ];
         if let Some(it) = formats.iter().find(|it| format.is_some_and(|is| is.starts_with(it.0))) {
             return Some(it.1);
         }
@@ -109,6 +115,7 @@ impl Kind {
             Self::TeamAtWork => "a team at work",
             Self::TeamFaults => "a file of a team's faults",
             Self::TeamTrace => "the trace of a team",
+            Self::Robot => "a robot",
         }
     }
 
@@ -130,6 +137,7 @@ impl Kind {
             Self::TeamAtWork => "`cotama show service` prints one",
             Self::TeamFaults => "`cotama campaign service --out DIR` writes some",
             Self::TeamTrace => "`cotama run fleet --trace FILE` writes one",
+            Self::Robot => "`cotama new robot NAME` begins one",
         }
     }
 
@@ -138,7 +146,9 @@ impl Kind {
         match self {
             Self::Mission => format!("cotama plan {file}"),
             Self::Faults => format!("cotama run MISSION --faults {file}"),
-            Self::Pnml | Self::JsonNet | Self::Tina => format!("cotama check {file}"),
+            Self::Pnml | Self::JsonNet | Self::Tina | Self::Robot => {
+                format!("cotama check {file}")
+            }
             Self::Properties => format!("cotama check MODEL --properties {file}"),
             Self::Certificate => format!("cotama verify {file}"),
             Self::Trace | Self::TeamTrace | Self::TeamFaults => format!("cotama replay {file}"),
@@ -195,7 +205,8 @@ pub(crate) fn expect(path: &str, bytes: &[u8], what: &str, wanted: &[Kind]) -> R
         };
         return refused(kind.words(), help);
     }
-    let is_toml = |it: &Kind| matches!(it, Kind::Mission | Kind::Faults | Kind::TeamAtWork);
+    let is_toml =
+        |it: &Kind| matches!(it, Kind::Mission | Kind::Faults | Kind::TeamAtWork | Kind::Robot);
     let is_toml = !wanted.is_empty() && wanted.iter().all(is_toml);
     let reads_yaml = [Kind::Properties, Kind::Fmeca].iter().any(|it| wanted.contains(it));
     if !reads_yaml && foreign::is_yaml(&start) {

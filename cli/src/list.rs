@@ -9,6 +9,7 @@ use crate::render::described;
 use crate::render::style::{HEADING, NAME};
 use crate::team::Team;
 use cotama_models::missions::embedded;
+use cotama_models::robots;
 use std::fmt::Write;
 
 /// Lists what comes with the program.
@@ -22,11 +23,16 @@ pub(crate) fn list(args: &ListArgs, screen: &Screen) -> Result<Exit, Failure> {
         .iter()
         .map(|it| Listed { name: it.shown_name(), description: it.sentence().to_owned() });
     let models = models.collect();
+    let robots = robots::EMBEDDED
+        .iter()
+        .map(|it| Listed { name: it.name.to_owned(), description: it.description.to_owned() });
+    let robots = robots.collect();
     let scenarios = Team::ALL
         .iter()
         .map(|it| Listed { name: it.0.name().to_owned(), description: it.1.to_owned() });
     let scenarios = scenarios.collect();
-    let answer = ListAnswer { schema: "cotama/list/1", missions, models, scenarios, maps: vec![] };
+    let answer =
+        ListAnswer { schema: "cotama/list/1", missions, models, robots, scenarios, maps: vec![] };
     if args.json.json {
         Screen::json(&answer)?;
         return Ok(Exit::Success);
@@ -35,6 +41,7 @@ pub(crate) fn list(args: &ListArgs, screen: &Screen) -> Result<Exit, Failure> {
     let parts = [
         ("missions", &answer.missions),
         ("models", &answer.models),
+        ("robots", &answer.robots),
         ("scenarios", &answer.scenarios),
         ("maps", &answer.maps),
     ];

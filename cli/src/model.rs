@@ -11,6 +11,9 @@ use cotama_core::net::owned::OwnedNet;
 use cotama_core::net::{Known, TransitionId};
 use cotama_core::system::{Component, System};
 use cotama_models::nets;
+use cotama_models::robots::requirements::Requirement as RobotRequirement;
+use cotama_models::robots::supervisors::OwnedSystem;
+use cotama_models::robots::{self, Robot};
 use cotama_models::team::protocol::Requirement;
 use cotama_models::team::scenario::Scenario;
 use cotama_verification::formats::json::{self, JsonNetError};
@@ -89,6 +92,23 @@ pub(crate) enum Found {
     Time(TimeNet),
     /// Nets that work together.
     System(&'static System<'static>),
+    /// The supervisors of a robot, and what is required of them.
+    Robot(Box<Supervisors>),
+}
+
+/// The supervisors that the file of a robot makes.
+#[derive(Debug)]
+pub(crate) struct Supervisors {
+    pub(crate) system: OwnedSystem,
+    pub(crate) requirements: Vec<RobotRequirement>,
+}
+
+impl From<&Robot> for Found {
+    fn from(robot: &Robot) -> Self {
+        let system = robots::supervisors::system(robot);
+        let requirements = robots::requirements::of(robot);
+        Self::Robot(Box::new(Supervisors { system, requirements }))
+    }
 }
 
 impl From<Loaded> for Found {
@@ -105,6 +125,7 @@ pub(crate) fn with_system<T>(
 ) -> Result<T, Failure> {
     let (net, labels) = match find(name)? {
         Found::System(system) => return Ok(then(system, &Labels::default())),
+        Found::Robot(it) => return Ok(it.system.with(|it| then(it, &Labels::default()))),
         Found::Net(mut loaded) => {
             let labels = std::mem::take(&mut loaded.labels);
             (loaded.plain(name, "played")?, labels)
@@ -119,6 +140,9 @@ pub(crate) fn with_system<T>(
 pub(crate) fn find(name: &str) -> Result<Found, Failure> {
     if let Some(team) = Team::named(name) {
         return protocol(name, &Chosen::Known(team).scenario());
+    }
+    if let Some(it) = robots::embedded(name) {
+        return Ok(Found::from(&Robot::parse(it.name, it.text)?));
     }
     let (family, number) =
         name.split_once(':').map_or((name, None), |(family, it)| (family, Some(it)));
@@ -148,6 +172,7 @@ fn unknown(name: &str, family: &str) -> Failure {
     let entries = catalogue::entries();
     let number = &name[family.len()..];
     let teams = Team::ALL.iter().map(|it| it.0.name());
+    let teams = teams.chain(robots::EMBEDDED.iter().map(|it| it.name));
     let guess = near(family, entries.iter().map(|it| it.name).chain(teams))
         .map_or_else(String::new, |near| format!("; did you mean `{near}{number}`?"));
     Failure::new(format!("there is no model `{name}`, and no file of this name{guess}")).help(
@@ -165,6 +190,10 @@ fn file(path: &str) -> Result<Found, Failure> {
     if kind::is_of(&bytes, FileKind::TeamAtWork) {
         let text = input::utf8(path, WHAT, bytes)?;
         return protocol(path, &Scenario::parse(input::name(path), &text)?);
+    }
+    if kind::is_of(&bytes, FileKind::Robot) {
+        let text = input::utf8(path, WHAT, bytes)?;
+        return Ok(Found::from(&Robot::parse(input::name(path), &text)?));
     }
     let end = Path::new(path).extension().map(|end| end.to_string_lossy().to_lowercase());
     let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes).trim_ascii_start();

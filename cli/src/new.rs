@@ -1,4 +1,4 @@
-//! `cotama new`: a mission file, an FMECA, or a crate with a net or a system, that works as it is.
+//! `cotama new`: a mission file, a robot, an FMECA, or a crate with a net or a system, that works as it is.
 //!
 //! The texts are the files in `templates/`, in which the name stands for the one that is wanted.
 
@@ -43,6 +43,7 @@ macro_rules! template {
 
 /// Templates of one file: its text and the name in it.
 const MISSION: (&str, &str) = (include_str!("../templates/mission.toml"), "my-mission");
+const ROBOT: (&str, &str) = (include_str!("../templates/robot.toml"), "my-robot");
 const FMECA: (&str, &str) = (include_str!("../templates/fmeca.toml"), "my-fmeca");
 static NET: Template = template!("my-net" in "net", taken: &["net"]);
 static SYSTEM: Template =
@@ -89,7 +90,7 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
         return Err(Failure::new(message).help(format!("{help}, or say `{name}` alone")));
     }
     let (files, next) = match args.kind {
-        NewKind::Mission | NewKind::Fmeca => {
+        NewKind::Mission | NewKind::Robot | NewKind::Fmeca => {
             let what = one_file(args.kind);
             if args.sources.is_some() {
                 let message = format!("--sources is for crates: {what} is one file");
@@ -97,18 +98,21 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
             }
             let file = path.with_file_name(format!("{name}.toml"));
             refuse_to_replace(&file)?;
-            let is_mission = args.kind == NewKind::Mission;
-            let (text, own) = if is_mission { MISSION } else { FMECA };
+            let (text, own) = match args.kind {
+                NewKind::Mission => MISSION,
+                NewKind::Robot => ROBOT,
+                _ => FMECA,
+            };
             output::file(&file, text.replace(own, name).as_bytes())?;
             let shown = quoted(&file.display().to_string());
-            let next = if is_mission {
-                format!("{NAME}cotama plan {shown}{NAME:#}, {NAME}cotama run {shown}{NAME:#}")
-            } else {
-                format!(
-                    "{NAME}cotama fmeca {shown}{NAME:#}, \
-                     {NAME}cotama fmeca {shown} --diagnosability{NAME:#}"
-                )
+            let [first, second] = match args.kind {
+                NewKind::Mission => ["plan", "run"].map(|it| format!("{it} {shown}")),
+                NewKind::Robot => {
+                    [format!("check {shown}"), format!("export {shown} --format svg")]
+                }
+                _ => ["", " --diagnosability"].map(|it| format!("fmeca {shown}{it}")),
             };
+            let next = format!("{NAME}cotama {first}{NAME:#}, {NAME}cotama {second}{NAME:#}");
             (vec![file], Some(next))
         }
         NewKind::Net | NewKind::System => {
@@ -274,6 +278,7 @@ fn is_crate(kind: NewKind) -> bool {
 /// Returns the file name of a kind that is one file.
 const fn one_file(kind: NewKind) -> &'static str {
     match kind {
+        NewKind::Robot => "a robot",
         NewKind::Fmeca => "an FMECA",
         _ => "a mission",
     }
@@ -298,7 +303,7 @@ fn check_name(kind: NewKind, name: &str) -> Result<(), Failure> {
     }
     let module = name.replace('-', "_");
     let taken = match kind {
-        NewKind::Mission | NewKind::Fmeca => return Ok(()),
+        NewKind::Mission | NewKind::Robot | NewKind::Fmeca => return Ok(()),
         NewKind::Net => NET.taken,
         NewKind::System => SYSTEM.taken,
         NewKind::Board => BOARD.taken,

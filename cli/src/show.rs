@@ -1,4 +1,4 @@
-//! `cotama show`: the file of a mission or a team.
+//! `cotama show`: the file of a mission, a team or a robot.
 
 use crate::args::MissionArg;
 use crate::exit::{Exit, Failure};
@@ -6,13 +6,16 @@ use crate::mission;
 use crate::output::Screen;
 use crate::team::Chosen;
 use cotama_core::text;
+use cotama_models::robots;
 
-/// Prints the file of a mission or a team; what a terminal would obey in its strings and comments
+/// Prints the file of a mission, a team or a robot; what a terminal would obey in its strings and comments
 /// is escaped.
 pub(crate) fn show(args: &MissionArg) -> Result<Exit, Failure> {
-    let text = match Chosen::of(&args.mission)? {
-        Some(team) => team.text(),
-        None => mission::load(&args.mission)?.text().to_owned(),
+    let robot = robots::embedded(&args.mission).map(|it| it.text.to_owned());
+    let text = match (robot, Chosen::of(&args.mission)?) {
+        (Some(text), _) => text,
+        (None, Some(team)) => team.text(),
+        (None, None) => mission::load(&args.mission)?.text().to_owned(),
     };
     Screen::raw(text::toml(&text).to_string().as_bytes())?;
     Ok(Exit::Success)

@@ -6,6 +6,7 @@ use crate::model::{self, Found};
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::system::System;
 use cotama_models::cotama::Watch;
+use cotama_models::robots::requirements::{Requirement as RobotRequirement, Watch as RobotWatch};
 use cotama_models::team::protocol::Requirement;
 use cotama_verification::check::Model;
 use cotama_verification::flat::{self, FlatError, Looks, Rounds, flat};
@@ -28,6 +29,8 @@ pub(crate) struct Subject {
     pub(crate) rounds: Option<Rounds>,
     /// Requirements of the protocol of a team.
     pub(crate) requirements: Vec<Requirement>,
+    /// Requirements of the supervisors of a robot.
+    pub(crate) required: Vec<RobotRequirement>,
     place_ids: Vec<String>,
     transition_ids: Vec<String>,
 }
@@ -53,6 +56,10 @@ impl Subject {
     fn found(name: &str, untimed: bool, semantics: Semantics) -> Result<Self, Failure> {
         let loaded = match model::find(name)? {
             Found::System(system) => return Self::of_system(name, system, semantics),
+            Found::Robot(it) => {
+                let subject = it.system.with(|system| Self::of_system(name, system, semantics))?;
+                return Ok(Self { required: it.requirements, ..subject });
+            }
             Found::Time(net) => {
                 let plain = untimed || model::is_untimed(&net);
                 let model = if plain { Model::Plain(net.untimed()) } else { Model::from(net) };
@@ -128,6 +135,7 @@ impl Subject {
             semantics: None,
             rounds: None,
             requirements: Vec::new(),
+            required: Vec::new(),
             place_ids,
             transition_ids,
         }
@@ -140,11 +148,30 @@ impl Subject {
 
     /// The same system in rounds, with what it takes to remember; nothing of other models.
     pub(crate) fn watched(&self, watches: &[Watch]) -> Result<Option<Self>, FlatError> {
+        self.watching(|rounds| {
+            watches.iter().try_for_each(|it| {
+                let looks = if it.at_end { Looks::AtEnd } else { Looks::BeforeOutside };
+                rounds.watch(it.name, looks, (it.begins, it.ends), it.most)
+            })
+        })
+    }
+
+    /// The same system in rounds, with the observers of a requirement of its robot.
+    pub(crate) fn watched_by(&self, watches: &[RobotWatch]) -> Result<Option<Self>, FlatError> {
+        self.watching(|rounds| {
+            watches.iter().try_for_each(|it| {
+                let looks = if it.at_end { Looks::AtEnd } else { Looks::BeforeOutside };
+                rounds.watch(&it.name, looks, (&it.begins, &it.ends), it.most)
+            })
+        })
+    }
+
+    fn watching(
+        &self,
+        add: impl FnOnce(&mut Rounds) -> Result<(), FlatError>,
+    ) -> Result<Option<Self>, FlatError> {
         let Some(mut rounds) = self.rounds.clone() else { return Ok(None) };
-        for it in watches {
-            let looks = if it.at_end { Looks::AtEnd } else { Looks::BeforeOutside };
-            rounds.watch(it.name, looks, (it.begins, it.ends), it.most)?;
-        }
+        add(&mut rounds)?;
         let net = rounds.net()?;
         let subject = Self::new(&self.name, Model::from(&net.view().net()), Some(net));
         Ok(Some(Self { semantics: self.semantics, rounds: Some(rounds), ..subject }))

@@ -42,6 +42,8 @@ pub mod fmeca;
 mod json;
 pub mod missions;
 pub mod nets;
+#[cfg(feature = "std")]
+pub mod robots;
 pub mod team;
 #[cfg(feature = "std")]
 pub mod toml_text;

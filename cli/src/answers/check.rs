@@ -3,6 +3,7 @@
 use crate::args::Semantics;
 use schemars::JsonSchema;
 use serde::Serialize;
+use std::borrow::Cow;
 
 /// The answer of `cotama check`.
 #[derive(Debug, JsonSchema, Serialize)]
@@ -53,10 +54,10 @@ pub(crate) struct ResultRow {
     pub(crate) name: String,
     /// The number of a requirement.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) id: Option<&'static str>,
+    pub(crate) id: Option<Cow<'static, str>>,
     /// The requirement in a sentence.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) sentence: Option<&'static str>,
+    pub(crate) sentence: Option<Cow<'static, str>>,
     /// The question, written out.
     pub(crate) property: String,
     /// `true` also of a bound that is known.

@@ -7,6 +7,8 @@ use std::path::PathBuf;
 pub(crate) const NEW_EXAMPLES: &str = "\
 What is written:
   mission  NAME.toml, with every section explained; `plan` and `run` take it as it is
+  robot    NAME.toml, a robot with all that can fail on it, of which its supervisors are made; \
+`check`, `statespace`, `simulate` and `export` take it as it is
   fmeca    NAME.toml, failure modes of a small robot with every key; `fmeca` takes it as it is
   net      the folder NAME: a crate with a supervisor, its laws, a program that plays it, tests of \
 what it promises, and an example that writes it as JSON for `check` and `simulate`
@@ -16,6 +18,7 @@ on a microcontroller, in an emulator first
 
 Examples:
   $ cotama new mission hall && cotama plan hall.toml && cotama run hall.toml
+  $ cotama new robot cart && cotama check cart.toml
   $ cotama new fmeca arm && cotama fmeca arm.toml --diagnosability
   $ cotama new net gripper         # then: cd gripper && cargo test
   $ cotama new net hand && cotama new board hand
@@ -26,6 +29,8 @@ Examples:
 pub(crate) enum NewKind {
     /// A mission file
     Mission,
+    /// A robot with what can fail on it, of which its supervisors are made
+    Robot,
     /// A file of failure modes, their effects and criticality
     Fmeca,
     /// A crate with a supervisor

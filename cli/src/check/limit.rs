@@ -42,7 +42,7 @@ pub(super) fn told(args: &CheckArgs, why: &str, screen: &Screen) -> Result<Exit,
         rest: None,
         unused: None,
     };
-    let own = REQUIREMENTS.iter().map(|it| row(it.0, Some(it.0), Some(it.1)));
+    let own = REQUIREMENTS.iter().map(|it| row(it.0, Some(it.0.into()), Some(it.1.into())));
     let asked = args.property.iter().chain(&args.properties).map(|it| row(it, None, None));
     let is_usual = args.property.is_empty() && args.properties.is_none();
     let results: Vec<_> = if is_usual { own.collect() } else { asked.collect() };

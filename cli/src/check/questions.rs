@@ -15,6 +15,7 @@ use cotama_models::cotama::Requirement;
 use cotama_verification::pnml::Location;
 use cotama_verification::property::{self, Atom, Formula, Property, PropertyError, Question, mcc};
 use cotama_verification::pt::Pt;
+use std::borrow::Cow;
 
 /// The questions to a model.
 #[derive(Debug, Default)]
@@ -33,10 +34,10 @@ pub(super) struct Asked {
 }
 
 /// A requirement by its number, in a sentence.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Claim {
-    pub(super) id: &'static str,
-    pub(super) sentence: &'static str,
+    pub(super) id: Cow<'static, str>,
+    pub(super) sentence: Cow<'static, str>,
 }
 
 /// Returns the questions on the command line or in a file; without either, the laws of the model,
@@ -56,6 +57,9 @@ pub(super) fn asked(args: &CheckArgs, subject: &Subject) -> Result<Asked, Failur
     if !subject.requirements.is_empty() {
         return protocol(subject);
     }
+    if subject.rounds.is_some() && !subject.required.is_empty() {
+        return self::required(subject);
+    }
     let required = catalogue::requirements(&subject.name);
     if subject.rounds.is_some() && !required.is_empty() {
         return requirements(&required, subject);
@@ -74,7 +78,26 @@ fn protocol(subject: &Subject) -> Result<Asked, Failure> {
         let property = property::parse(&it.text, subject.model.pt())
             .map_err(|error| Failure::new(format!("{}: {error}", it.id)))?;
         asked.properties.push(Property { name: it.id.to_owned(), ..property });
-        asked.requirements.push(Claim { id: it.id, sentence: it.sentence });
+        asked.requirements.push(Claim { id: it.id.into(), sentence: it.sentence.into() });
+    }
+    Ok(asked)
+}
+
+/// The requirements of the supervisors of a robot.
+fn required(subject: &Subject) -> Result<Asked, Failure> {
+    let mut asked = Asked { is_usual: true, ..Asked::default() };
+    for it in &subject.required {
+        let refused = |error: String| Failure::new(format!("{}: {error}", it.id));
+        let watched = match &it.watches[..] {
+            [] => None,
+            all => subject.watched_by(all).map_err(|error| refused(error.to_string()))?,
+        };
+        let pt = watched.as_ref().unwrap_or(subject).model.pt();
+        let property = property::parse(&it.text, pt).map_err(|error| refused(error.to_string()))?;
+        asked.properties.push(Property { name: it.id.clone(), ..property });
+        let (id, sentence) = (it.id.clone().into(), it.sentence.clone().into());
+        asked.requirements.push(Claim { id, sentence });
+        asked.watched.push(watched);
     }
     Ok(asked)
 }
@@ -92,7 +115,8 @@ fn requirements(all: &[&'static Requirement], subject: &Subject) -> Result<Asked
         let pt = watched.as_ref().unwrap_or(subject).model.pt();
         let property = property::parse(it.text, pt).map_err(|error| refused(error.to_string()))?;
         asked.properties.push(Property { name: requirement.id.to_owned(), ..property });
-        asked.requirements.push(Claim { id: requirement.id, sentence: requirement.sentence });
+        let (id, sentence) = (requirement.id.into(), requirement.sentence.into());
+        asked.requirements.push(Claim { id, sentence });
         asked.watched.push(watched);
     }
     Ok(asked)

@@ -50,7 +50,7 @@ fn id(row: &ResultRow) -> String {
 }
 
 fn rule(id: &str, row: &ResultRow) -> Value {
-    let said = row.sentence.unwrap_or(&row.property);
+    let said = row.sentence.as_deref().unwrap_or(&row.property);
     let said: String = said.chars().take(DESCRIBED).collect();
     json!({
         "id": id,

@@ -74,7 +74,7 @@ pub(crate) fn result(row: &ResultRow, is_usual: bool, unit: Option<&str>, width:
         (VerdictName::Unknown, ..) => (NOTICE, "unknown".to_owned()),
     };
     let (name, property) = (visible(&row.name), visible(&row.property));
-    let claim = if let Some(sentence) = row.sentence {
+    let claim = if let Some(sentence) = &row.sentence {
         format!("{name}: {sentence}")
     } else if is_usual {
         name

@@ -46,4 +46,5 @@ pub use csv::COLUMNS;
 pub use diagnosis::{Diagnosability, MAX_PAIRS, Pair, Status};
 pub use groups::{Groups, MAX_GROUPED};
 pub use reader::FORMAT;
+pub(crate) use reader::thousandths;
 pub use set::Set;

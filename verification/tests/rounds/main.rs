@@ -22,6 +22,7 @@ mod reconstruction;
 mod recorded;
 mod recovering;
 mod responses;
+mod robots;
 mod shared;
 mod steps;
 

@@ -2,7 +2,7 @@
 
 /// A decimal number without sign, as `400`, `0.5` or `1.2e6`, in thousandths; `None` for what is no
 /// such number, has more than three decimals, or is too large.
-pub(super) fn thousandths(text: &str) -> Option<u64> {
+pub(crate) fn thousandths(text: &str) -> Option<u64> {
     let text = text.trim();
     let (mantissa, exponent) = match text.split_once(['e', 'E']) {
         Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),

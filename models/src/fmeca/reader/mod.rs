@@ -8,6 +8,8 @@ mod cells;
 mod row;
 mod table;
 
+pub(crate) use amount::thousandths;
+
 use super::analysis::{Analysis, Flag, MAX_FLAGS, MAX_MODES, MAX_PROBES, Probe};
 use super::set::Set;
 use crate::missions::reader::fields::{self, Fields, Sink};

@@ -1,0 +1,49 @@
+//! The robots that come with the program.
+
+use super::Robot;
+
+/// A robot file that comes with the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EmbeddedRobot {
+    /// Name of the robot.
+    pub name: &'static str,
+    /// Description in one line.
+    pub description: &'static str,
+    /// The text of the file.
+    pub text: &'static str,
+}
+
+/// All robots that come with the program.
+pub const EMBEDDED: [EmbeddedRobot; 2] = [
+    EmbeddedRobot {
+        name: "p3dx-delivery",
+        description: "Pioneer 3-DX of Durand et al. 2010: 10 configurations, 41 failures",
+        text: include_str!("../../robots/p3dx-delivery.toml"),
+    },
+    EmbeddedRobot {
+        name: "transport",
+        description: "indoor transport robot: safety scanner, lidar, lift; nobody's paper",
+        text: include_str!("../../robots/transport.toml"),
+    },
+];
+
+/// The file of this name.
+///
+/// ```
+/// use cotama_models::robots::{Robot, embedded};
+/// let transport = embedded("transport").unwrap();
+/// let robot = Robot::parse(transport.name, transport.text).unwrap();
+/// assert_eq!((robot.modules.len(), robot.sub_objectives.len()), (12, 5));
+/// assert_eq!(embedded("nope"), None);
+/// ```
+pub fn embedded(name: &str) -> Option<EmbeddedRobot> {
+    EMBEDDED.into_iter().find(|it| it.name == name)
+}
+
+impl Robot {
+    /// Reads the robot of this name that comes with the program.
+    pub fn shipped(name: &str) -> Option<Self> {
+        let it = embedded(name)?;
+        Self::parse(it.name, it.text).ok()
+    }
+}

@@ -1,0 +1,168 @@
+//! What failures are told as: reports, and the losses that make a difference.
+
+use super::{Failure, MAX_LOSSES, MAX_REPORTS, Mode, Parts, Restarts, Robot, members};
+use crate::cotama::Severity;
+
+/// A loss that stays: the parts that are gone with a failure, as far as some configuration or the
+/// link to the operator needs them. Failures that take the same are one loss.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Loss {
+    /// Name of the loss: that of the part lost.
+    pub name: String,
+    /// The modules that cannot be used any more.
+    pub modules: u64,
+}
+
+/// What the decisional level is told of a failure. Failures that take the same and are as severe
+/// are one report.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Report {
+    /// Name of the report: the short name of its first failure.
+    pub name: String,
+    /// Its failures, by number.
+    pub failures: Vec<usize>,
+    /// What is lost with it.
+    pub loss: Option<usize>,
+    /// How severe it is where the robot drives itself.
+    pub autonomous: Severity,
+    /// How severe it is where the operator does.
+    pub operator: Severity,
+    /// How often a module is started anew before it is told.
+    pub restarts: Option<Restarts>,
+}
+
+/// All reports and losses of a robot, and what is left after each set of losses.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Losses {
+    /// The losses; a set of them has a bit each.
+    pub losses: Vec<Loss>,
+    /// The reports.
+    pub reports: Vec<Report>,
+    /// What is left after each set of losses.
+    left: Vec<Left>,
+}
+
+/// What there is too much of.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum TooMany {
+    /// There are more than [`MAX_LOSSES`] losses.
+    Losses,
+    /// There are more than [`MAX_REPORTS`] reports.
+    Reports,
+}
+
+/// What is left after some losses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Left {
+    /// The configurations that can run, a bit each.
+    pub(super) running: u32,
+    /// Whether the operator is reached.
+    pub(super) reaches_operator: bool,
+}
+
+impl Report {
+    /// How severe it is in a mode.
+    pub const fn severity(&self, mode: Mode) -> Severity {
+        match mode {
+            Mode::Autonomous => self.autonomous,
+            Mode::Operator => self.operator,
+        }
+    }
+}
+
+impl Losses {
+    /// The reports and losses of a robot.
+    ///
+    /// # Errors
+    /// The position of the failure with one loss or one report too many, and which it is.
+    pub(super) fn of(robot: &Robot) -> Result<Self, (usize, TooMany)> {
+        let relevant = relevant(robot);
+        let mut losses: Vec<Loss> = Vec::new();
+        let mut reports: Vec<Report> = Vec::new();
+        // What nothing shows is told by nobody.
+        for (at, it) in robot.failures.iter().enumerate().filter(|it| it.1.unseen.is_none()) {
+            let gone = gone(robot, it.loses);
+            let loss = (gone & relevant != 0).then(|| {
+                let known = losses.iter().position(|loss| (loss.modules ^ gone) & relevant == 0);
+                known.unwrap_or_else(|| {
+                    losses.push(Loss { name: name(robot, it), modules: gone });
+                    losses.len() - 1
+                })
+            });
+            if losses.len() > MAX_LOSSES {
+                return Err((at, TooMany::Losses));
+            }
+            let same = |report: &&mut Report| {
+                (report.loss, report.autonomous, report.operator, report.restarts)
+                    == (loss, it.autonomous, it.operator, it.restarts)
+                    && it.restarts.is_none()
+            };
+            match reports.iter_mut().find(same) {
+                Some(report) => report.failures.push(at),
+                None => reports.push(Report {
+                    name: it.id.clone(),
+                    failures: vec![at],
+                    loss,
+                    autonomous: it.autonomous,
+                    operator: it.operator,
+                    restarts: it.restarts,
+                }),
+            }
+            if reports.len() > MAX_REPORTS {
+                return Err((at, TooMany::Reports));
+            }
+        }
+        let left = (0..1_u32 << losses.len()).map(|lost| left(robot, &losses, lost)).collect();
+        Ok(Self { losses, reports, left })
+    }
+
+    /// What is left after these losses.
+    pub(super) fn after(&self, lost: u32) -> Left {
+        debug_assert!((lost as usize) < self.left.len(), "losses of this robot");
+        self.left.get(lost as usize).copied().unwrap_or_default()
+    }
+
+    /// Returns the set of all losses, a bit each.
+    pub fn all(&self) -> u32 {
+        (1 << self.losses.len()) - 1
+    }
+}
+
+/// Returns the modules that cannot be used without these parts.
+fn gone(robot: &Robot, loses: Parts) -> u64 {
+    robot.available(Parts::NONE) & !robot.available(loses)
+}
+
+/// Returns the modules on which some configuration or the link to the operator depends.
+fn relevant(robot: &Robot) -> u64 {
+    let required = robot.configurations.iter().fold(0, |all, it| all | it.required);
+    let mut relevant = required | robot.operator.unwrap_or(0);
+    loop {
+        let needed = members(relevant).filter_map(|it| robot.modules.get(it));
+        let all = needed.fold(relevant, |all, it| all | it.needs.modules | it.one_of);
+        if all == relevant {
+            return relevant;
+        }
+        relevant = all;
+    }
+}
+
+/// Names a loss by the first part that a failure takes.
+fn name(robot: &Robot, failure: &Failure) -> String {
+    let hardware = members(failure.loses.hardware).next().and_then(|it| robot.hardware.get(it));
+    let module = members(failure.loses.modules).next().and_then(|it| robot.modules.get(it));
+    let name = hardware.map(|it| &it.name).or(module.map(|it| &it.name));
+    name.unwrap_or(&failure.id).clone()
+}
+
+fn left(robot: &Robot, losses: &[Loss], lost: u32) -> Left {
+    let lost = losses.iter().enumerate().filter(|it| lost >> it.0 & 1 == 1);
+    let modules = lost.fold(0, |all, it| all | it.1.modules);
+    let available = robot.available(Parts { hardware: 0, modules });
+    let runs = robot.configurations.iter().enumerate();
+    let runs = runs.filter(|it| it.1.required & !available == 0);
+    Left {
+        running: runs.fold(0, |all, it| all | 1 << it.0),
+        reaches_operator: robot.operator.is_some_and(|link| link & !available == 0),
+    }
+}

@@ -1,0 +1,353 @@
+//! A robot as data: what it is made of, what can fail, and how it goes on.
+//!
+//! A `cotama-robot/1` file names hardware, modules, configurations, observers with their flags, and
+//! failures ([`Robot::parse`]). Of it the supervisors of COTAMA are made ([`supervisors::system`],
+//! Durand et al., TAROS 2010, Sections III to V), and the requirements that a checker is asked
+//! ([`requirements::of`]). What a failure leads to is one function, [`decide`]: the contextual
+//! supervisor is made from it.
+//!
+//! ```
+//! use cotama_models::robots::{Decision, Robot, Situation, Where, decide};
+//! let text = r#"
+//! format = "cotama-robot/1"
+//! name = "scout"
+//! [hardware.lidar]
+//! [hardware.base]
+//! [module.drive]
+//! hardware = ["base"]
+//! [module.scan]
+//! hardware = ["lidar"]
+//! [observer.watch]
+//! flags = ["scan_late", "base_silent"]
+//! [[configuration]]
+//! name = "Avoiding"
+//! sub_objective = "Follow"
+//! mode = "autonomous"
+//! required = ["drive", "scan"]
+//! speed_mm_s = 600
+//! [[configuration]]
+//! name = "Blind"
+//! sub_objective = "Follow"
+//! mode = "autonomous"
+//! required = ["drive"]
+//! speed_mm_s = 100
+//! [[failure]]
+//! id = "LID1"
+//! mode = "no scan"
+//! severity = { autonomous = "medium" }
+//! flags = ["scan_late"]
+//! loses = ["lidar"]
+//! [[failure]]
+//! id = "BAS1"
+//! mode = "no answer of the base"
+//! severity = { autonomous = "fatal" }
+//! flags = ["base_silent"]
+//! loses = ["base"]
+//! "#;
+//! let robot = Robot::parse("scout.toml", text).unwrap();
+//! let running = |configuration| Situation {
+//!     at: Where::Runs { sub_objective: 0, configuration },
+//!     lost: 0b01, // the lidar, which the first report says
+//! };
+//! assert_eq!(robot.best(0, 0b01, None), Some(1)); // `Blind` is what is left
+//! assert_eq!(decide(&robot, 0, running(0)), Decision::Adapt);
+//! assert_eq!(decide(&robot, 0, running(1)), Decision::Record);
+//! assert_eq!(decide(&robot, 1, running(1)), Decision::Stop);
+//! ```
+
+mod decision;
+mod embedded;
+mod losses;
+mod reached;
+mod reader;
+pub mod requirements;
+mod sound;
+pub mod supervisors;
+#[cfg(test)]
+mod tests;
+
+pub use decision::{Decision, Situation, Where, decide};
+pub use embedded::{EMBEDDED, EmbeddedRobot, embedded};
+pub use losses::{Loss, Losses, Report};
+pub use reader::FORMAT;
+
+use crate::cotama::Severity;
+use cotama_core::units::{Micros, MillimetresPerSecond, Millis};
+
+/// The most kinds of hardware, and the most modules.
+pub const MAX_PARTS: usize = 64;
+/// The most configurations.
+pub const MAX_CONFIGURATIONS: usize = 32;
+/// The most failures.
+pub const MAX_FAILURES: usize = 256;
+/// The most losses that make a difference: the supervisors remember each.
+pub const MAX_LOSSES: usize = 10;
+/// The most reports that differ.
+pub const MAX_REPORTS: usize = 64;
+
+/// A robot. Modules, hardware and the other parts are numbered in the order of the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Robot {
+    /// Name of the robot.
+    pub name: String,
+    /// The robot in a few words; may be empty.
+    pub title: String,
+    /// What modules stand on.
+    pub hardware: Vec<Hardware>,
+    /// Programs that sense, compute and act.
+    pub modules: Vec<Module>,
+    /// Sub-objectives of a drive. The autonomous ones follow one another in this order.
+    pub sub_objectives: Vec<SubObjective>,
+    /// Sets of modules that serve a sub-objective.
+    pub configurations: Vec<Configuration>,
+    /// The modules by which an operator is reached; `None` without an operator.
+    pub operator: Option<u64>,
+    /// Observers, with the flags that they raise.
+    pub observers: Vec<Observer>,
+    /// Failures: the rows of the FMECA.
+    pub failures: Vec<Failure>,
+    /// What failures are told as, and which losses differ.
+    pub losses: Losses,
+}
+
+/// A set of hardware and modules, a bit each by number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Parts {
+    /// Hardware.
+    pub hardware: u64,
+    /// Modules.
+    pub modules: u64,
+}
+
+/// A kind of hardware.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Hardware {
+    /// Name of the hardware.
+    pub name: String,
+    /// The hardware in a few words; may be empty.
+    pub title: String,
+    /// How many of it there are.
+    pub units: u8,
+    /// Source of what is said of it; may be empty.
+    pub source: String,
+}
+
+/// A module of the executive level.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Module {
+    /// Name of the module.
+    pub name: String,
+    /// The module in a few words; may be empty.
+    pub title: String,
+    /// The parts that it needs, all of them.
+    pub needs: Parts,
+    /// The modules of which it needs one; none when empty.
+    pub one_of: u64,
+    /// How often it runs; `None` where it is not scheduled.
+    pub period: Option<Millis>,
+    /// When it must be done after its release; the period where nothing else is said.
+    pub deadline: Option<Millis>,
+    /// Its worst-case execution time.
+    pub cost: Option<Micros>,
+    /// Source of what is said of it; may be empty.
+    pub source: String,
+}
+
+/// Who decides on the motion of the robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Mode {
+    /// The robot.
+    Autonomous,
+    /// The operator, by hand or by way-points.
+    Operator,
+}
+
+/// A sub-objective of a drive: a part of it that one set of modules serves at a time.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SubObjective {
+    /// Name of the sub-objective.
+    pub name: String,
+    /// Who decides on motion in it.
+    pub mode: Mode,
+    /// Whether the robot may move in it: some configuration has a speed.
+    pub moves: bool,
+    /// Its configurations, the best one first.
+    pub configurations: Vec<usize>,
+}
+
+/// A set of modules that serves a sub-objective.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Configuration {
+    /// Name of the configuration.
+    pub name: String,
+    /// The sub-objective that it serves.
+    pub sub_objective: usize,
+    /// The modules without which it cannot run, and all that they need.
+    pub required: u64,
+    /// The modules that it uses when they are there.
+    pub optional: u64,
+    /// The fastest that the robot may go with it.
+    pub speed: MillimetresPerSecond,
+    /// Source of what is said of it; may be empty.
+    pub source: String,
+}
+
+/// An observer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Observer {
+    /// Name of the observer.
+    pub name: String,
+    /// The observer in a few words; may be empty.
+    pub title: String,
+    /// The parts that it needs to see anything.
+    pub needs: Parts,
+    /// The flags that it raises.
+    pub flags: Vec<String>,
+}
+
+/// How long a failure lasts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Persistence {
+    /// It stays.
+    #[default]
+    Permanent,
+    /// It comes and goes.
+    Intermittent,
+    /// It passes.
+    Transient,
+}
+
+/// A failure: a row of the FMECA.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Failure {
+    /// Short name, for example `LID1`.
+    pub id: String,
+    /// The function that suffers; may be empty.
+    pub function: String,
+    /// The part that fails, in words; may be empty.
+    pub item: String,
+    /// How it fails.
+    pub mode: String,
+    /// Why; may be empty.
+    pub cause: String,
+    /// What follows; may be empty.
+    pub effect: String,
+    /// How severe it is where the robot drives itself.
+    pub autonomous: Severity,
+    /// How severe it is where the operator does.
+    pub operator: Severity,
+    /// How long it lasts.
+    pub persistence: Persistence,
+    /// The flags that always show it, by their position in the flags of all observers in order.
+    pub flags: Vec<usize>,
+    /// The flags that show it at times.
+    pub sometimes: Vec<usize>,
+    /// Why nothing shows it; `None` where flags do.
+    pub unseen: Option<String>,
+    /// How long after it the flags are up.
+    pub latency: Millis,
+    /// What is lost with it.
+    pub loses: Parts,
+    /// How often a module is started anew before anything counts as lost.
+    pub restarts: Option<Restarts>,
+    /// The mean time between two failures, in thousandths of an hour; `None` where nobody knows.
+    pub mean_mh: Option<u64>,
+    /// Source of what is said of it; may be empty.
+    pub source: String,
+}
+
+/// A reaction before any other: a module is started anew, so many times in a mission.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Restarts {
+    /// The module.
+    pub module: usize,
+    /// How often.
+    pub times: u8,
+}
+
+impl Failure {
+    /// How severe it is in a mode.
+    pub const fn severity(&self, mode: Mode) -> Severity {
+        match mode {
+            Mode::Autonomous => self.autonomous,
+            Mode::Operator => self.operator,
+        }
+    }
+}
+
+impl Parts {
+    /// No part.
+    pub const NONE: Self = Self { hardware: 0, modules: 0 };
+
+    /// Returns the union of both.
+    #[must_use]
+    pub const fn union(self, other: Self) -> Self {
+        Self { hardware: self.hardware | other.hardware, modules: self.modules | other.modules }
+    }
+}
+
+/// The positions of the bits of a set.
+pub(crate) fn members(set: u64) -> impl Iterator<Item = usize> {
+    (0..64).filter(move |it| set >> it & 1 == 1)
+}
+
+impl Robot {
+    /// Returns the modules that can be used when these parts are lost or faulty: none that is faulty
+    /// itself, stands on lost hardware, or needs a module that cannot be used.
+    pub fn available(&self, lost: Parts) -> u64 {
+        let mut available =
+            (0..self.modules.len()).fold(0, |all, it| all | 1 << it) & !lost.modules;
+        loop {
+            let works = |it: &usize| {
+                self.modules.get(*it).is_some_and(|it| {
+                    it.needs.hardware & lost.hardware == 0
+                        && it.needs.modules & !available == 0
+                        && (it.one_of == 0 || it.one_of & available != 0)
+                })
+            };
+            let left = members(available).filter(works).fold(0, |all, it| all | 1 << it);
+            if left == available {
+                return available;
+            }
+            available = left;
+        }
+    }
+
+    /// All flags, each with the number of its observer, observer after observer.
+    pub fn flags(&self) -> impl Iterator<Item = (usize, &str)> {
+        let all = self.observers.iter().enumerate();
+        all.flat_map(|(at, it)| it.flags.iter().map(move |flag| (at, flag.as_str())))
+    }
+
+    /// Returns the configurations that can run after these losses, a bit each.
+    pub fn running(&self, lost: u32) -> u32 {
+        self.losses.after(lost).running
+    }
+
+    /// Returns the best configuration of a sub-objective that can run after these losses, other
+    /// than one; `None` when none can.
+    pub fn best(
+        &self,
+        sub_objective: usize,
+        lost: u32,
+        other_than: Option<usize>,
+    ) -> Option<usize> {
+        let running = self.running(lost);
+        let mut all = self.sub_objectives.get(sub_objective)?.configurations.iter().copied();
+        all.find(|it| Some(*it) != other_than && running >> it & 1 == 1)
+    }
+
+    /// Whether the operator can be reached after these losses.
+    pub fn reaches_operator(&self, lost: u32) -> bool {
+        self.losses.after(lost).reaches_operator
+    }
+
+    /// Whether the operator can be asked after these losses, and can do something then: he is
+    /// reached, and a configuration in which he decides can run.
+    pub fn can_ask(&self, lost: u32) -> bool {
+        let helps = |(at, it): (usize, &SubObjective)| {
+            it.mode == Mode::Operator && self.best(at, lost, None).is_some()
+        };
+        self.reaches_operator(lost) && self.sub_objectives.iter().enumerate().any(helps)
+    }
+}

@@ -1,0 +1,89 @@
+//! Which configurations a robot comes to run, whatever fails and whatever the operator does.
+
+use super::{Decision, Mode, Robot, Situation, Where, decide};
+use std::collections::BTreeSet;
+
+/// Returns the configurations that run in some situation, a bit each: passes through all places of
+/// the robot and all sets of losses that a run can come to, reactions taken at once.
+pub(super) fn configurations(robot: &Robot) -> u32 {
+    let start = Situation { at: Where::Rests, lost: 0 };
+    let mut found = BTreeSet::from([key(start)]);
+    let mut waiting = vec![start];
+    let mut reached = 0;
+    while let Some(it) = waiting.pop() {
+        if let Where::Runs { configuration, .. } = it.at {
+            reached |= 1 << configuration;
+        }
+        let failed = (0..robot.losses.reports.len()).filter_map(|report| after(robot, report, it));
+        let next = failed.chain(moves(robot, it)).filter(|it| found.insert(key(*it)));
+        waiting.extend(next.collect::<Vec<_>>());
+    }
+    reached
+}
+
+/// A situation as a number that no other has.
+fn key(it: Situation) -> (usize, u32) {
+    let at = match it.at {
+        Where::Rests => 0,
+        Where::Waits => 1,
+        Where::Runs { configuration, .. } => 2 + configuration,
+    };
+    (at, it.lost)
+}
+
+/// The situation after a report; `None` where the mission ends.
+fn after(robot: &Robot, report: usize, it: Situation) -> Option<Situation> {
+    let loss = robot.losses.reports.get(report).and_then(|it| it.loss);
+    let lost = it.lost | loss.map_or(0, |it| 1 << it);
+    let at = match (decide(robot, report, it), it.at) {
+        (Decision::Stop, _) => return None,
+        (Decision::Ask, _) => Where::Waits,
+        (Decision::Adapt, Where::Runs { sub_objective, configuration }) => {
+            let configuration = robot.best(sub_objective, lost, Some(configuration))?;
+            Where::Runs { sub_objective, configuration }
+        }
+        (Decision::Record | Decision::Adapt, at) => at,
+    };
+    Some(Situation { at, lost })
+}
+
+/// The situations that progress and the operator lead to.
+fn moves(robot: &Robot, it: Situation) -> Vec<Situation> {
+    let lost = it.lost;
+    let here = |at| Situation { at, lost };
+    let of = |mode| {
+        let all = robot.sub_objectives.iter().enumerate();
+        all.filter(move |it| it.1.mode == mode).map(|it| it.0)
+    };
+    let runs = |sub_objective| {
+        let best = robot.best(sub_objective, lost, None);
+        best.map(|configuration| here(Where::Runs { sub_objective, configuration }))
+    };
+    let enter = |sub_objective: Option<usize>| {
+        let waits = || robot.can_ask(lost).then(|| here(Where::Waits));
+        sub_objective.and_then(|it| runs(it).or_else(waits))
+    };
+    let chosen = || {
+        let reached = robot.reaches_operator(lost);
+        of(Mode::Operator).filter(move |_| reached).filter_map(runs)
+    };
+    let first = of(Mode::Autonomous).next();
+    match it.at {
+        Where::Rests => enter(first).into_iter().collect(),
+        Where::Waits => chosen().collect(),
+        Where::Runs { sub_objective, .. } => match robot.sub_objectives.get(sub_objective) {
+            Some(is) if is.mode == Mode::Operator => {
+                let done = if is.moves { Some(here(Where::Rests)) } else { enter(first) };
+                chosen().chain(done).collect()
+            }
+            _ => {
+                let next = of(Mode::Autonomous).find(|it| *it > sub_objective);
+                let done = match next {
+                    Some(next) => enter(Some(next)),
+                    None => Some(here(Where::Rests)),
+                };
+                done.into_iter().collect()
+            }
+        },
+    }
+}

@@ -1,0 +1,147 @@
+//! Reading the failures of a robot.
+
+use super::{Names, TIMES, parts, words};
+use crate::cotama::Severity;
+use crate::fmeca::thousandths;
+use crate::missions::reader::fields::Fields;
+use crate::missions::{Diagnostic, Spanned};
+use crate::names::quoted;
+use crate::robots::{Failure, Parts, Persistence, Restarts};
+use cotama_core::units::Millis;
+
+const SEVERITIES: [&str; 4] = ["weak", "medium", "hard", "fatal"];
+/// The longest mean time: a million years.
+const MOST_MH: u64 = 8_766_000_000_000;
+const PERSISTENCES: [&str; 3] = ["permanent", "intermittent", "transient"];
+
+/// The failures of a row: one, or one for each module of `each`, which is lost with it.
+pub(super) fn failures(mut fields: Fields<'_>, names: &mut Names) -> Option<Vec<Failure>> {
+    let span = fields.span_of("id");
+    let each = fields.optional_texts("each").ok();
+    let each = each.and_then(|all| {
+        let known = || names.modules.iter().map(String::as_str);
+        let all: Vec<_> = all.iter().map(|it| fields.index_of(it, "module", known())).collect();
+        all.into_iter().collect::<Option<Vec<_>>>()
+    });
+    let row = failure(fields, names);
+    let count = each.as_ref().map_or(1, |it| it.len().max(1));
+    names.at.failures.extend(std::iter::repeat_n(span, count));
+    let (row, each) = (row?, each?);
+    if each.is_empty() {
+        return Some(vec![row]);
+    }
+    let of = |module: usize| Failure {
+        id: format!("{}.{}", row.id, names.modules.get(module).map_or("", |it| it)),
+        loses: row.loses.union(Parts { hardware: 0, modules: 1 << module }),
+        ..row.clone()
+    };
+    Some(each.into_iter().map(of).collect())
+}
+
+fn failure(mut fields: Fields<'_>, names: &Names) -> Option<Failure> {
+    let id = fields.id("id");
+    let function = words(&mut fields, "function");
+    let item = words(&mut fields, "item");
+    let mode = fields.text("mode");
+    let cause = words(&mut fields, "cause");
+    let effect = words(&mut fields, "effect");
+    let severity = fields.table("severity").and_then(severity);
+    let persistence = match fields.optional_text("persistence") {
+        Ok(None) => Some(Persistence::Permanent),
+        Ok(Some(it)) => fields.index_of(&it, "persistence", PERSISTENCES.into_iter()).map(|it| {
+            [Persistence::Permanent, Persistence::Intermittent, Persistence::Transient][it.min(2)]
+        }),
+        Err(_) => None,
+    };
+    let unseen = fields.optional_text("unseen");
+    let flags = match &unseen {
+        Ok(Some(_)) => fields.optional_texts("flags").ok(),
+        _ => fields.texts("flags"),
+    };
+    let flags = flags.and_then(|all| self::flags(&fields, &all, names));
+    let sometimes = fields.optional_texts("sometimes").ok();
+    let sometimes = sometimes.and_then(|all| self::flags(&fields, &all, names));
+    if let (Ok(Some(it)), Some(true)) = (&unseen, flags.as_ref().map(|it| !it.is_empty())) {
+        let message = "a failure that flags show is seen";
+        let it = Diagnostic::new(it.span.clone(), message, "and `flags` too");
+        fields.report(it.help("leave out `unseen` or `flags`"));
+    }
+    let latency = fields.optional_integer("latency_ms", TIMES);
+    let loses = parts(&mut fields, "loses", names);
+    let restarts = match fields.optional_table("restart") {
+        Ok(it) => Some(it.map(|it| restart(it, names))),
+        Err(_) => None,
+    };
+    let mean = match fields.optional_number("mean_hours") {
+        Ok(None) => Some(None),
+        Ok(Some(it)) => mean(&fields, &it).map(Some),
+        Err(_) => None,
+    };
+    let source = words(&mut fields, "source");
+    fields.finish();
+    let restarts = match restarts? {
+        Some(it) => Some(it?),
+        None => None,
+    };
+    let (autonomous, operator) = severity?;
+    Some(Failure {
+        id: id?.value,
+        function,
+        item,
+        mode: mode?.value,
+        cause,
+        effect,
+        autonomous,
+        operator,
+        persistence: persistence?,
+        flags: flags?,
+        sometimes: sometimes?,
+        unseen: unseen.ok()?.map(|it| it.value),
+        latency: Millis(latency.ok()?.unwrap_or(0)),
+        loses: loses?,
+        restarts,
+        mean_mh: mean?,
+        source,
+    })
+}
+
+/// The severity by mode; in that of the operator it is the same where nothing else is said.
+fn severity(mut fields: Fields<'_>) -> Option<(Severity, Severity)> {
+    let named = |it: &str| SEVERITIES.iter().position(|known| *known == it).unwrap_or(3);
+    let autonomous = fields.choice("autonomous", "severity", &SEVERITIES);
+    let operator = match fields.optional_text("operator") {
+        Ok(None) => autonomous,
+        Ok(Some(it)) => {
+            fields.index_of(&it, "severity", SEVERITIES.into_iter()).map(|it| SEVERITIES[it])
+        }
+        Err(_) => None,
+    };
+    fields.finish();
+    Some((Severity::ALL[named(autonomous?)], Severity::ALL[named(operator?)]))
+}
+
+fn flags(fields: &Fields<'_>, all: &[Spanned<String>], names: &Names) -> Option<Vec<usize>> {
+    let known = || names.flags.iter().map(String::as_str);
+    let all: Vec<_> = all.iter().map(|it| fields.index_of(it, "flag", known())).collect();
+    all.into_iter().collect()
+}
+
+/// A mean time in thousandths of an hour.
+fn mean(fields: &Fields<'_>, text: &Spanned<String>) -> Option<u64> {
+    let mean = thousandths(&text.value).filter(|it| (1..=MOST_MH).contains(it));
+    if mean.is_none() {
+        let message = format!("{} is no mean time in hours", quoted(&text.value));
+        let it = Diagnostic::new(text.span.clone(), message, "not hours");
+        fields.report(it.help("write a positive number with three decimals at most"));
+    }
+    mean
+}
+
+fn restart(mut fields: Fields<'_>, names: &Names) -> Option<Restarts> {
+    let module = fields.text("module");
+    let known = || names.modules.iter().map(String::as_str);
+    let module = module.and_then(|it| fields.index_of(&it, "module", known()));
+    let times = fields.integer("times", 1..=9);
+    fields.finish();
+    Some(Restarts { module: module?, times: times? })
+}

@@ -1,0 +1,203 @@
+//! The requirements of any robot's supervisors, as questions to the checker.
+//!
+//! Numbers follow the supervisors, as in [`REQUIREMENTS`](crate::cotama::REQUIREMENTS) of the
+//! shipped delivery: GS global, LS local, AS adapters, CS contextual. Texts speak of
+//! [`system`](super::supervisors::system) as one net that acts in rounds.
+
+use super::supervisors::{cannot_run, place_of, word};
+use super::{Mode, Robot, SubObjective};
+use crate::cotama::Severity;
+
+/// Something that the supervisors of a robot are required to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Requirement {
+    /// Short name, for example `AS2.Blind`.
+    pub id: String,
+    /// The requirement in a sentence.
+    pub sentence: String,
+    /// The observers that the question needs, each of which may look at those before it.
+    pub watches: Vec<Watch>,
+    /// The property, in the language of the checker.
+    pub text: String,
+}
+
+/// Counts in how many rounds a duty lasts; a place of its name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Watch {
+    /// Name of the observer.
+    pub name: String,
+    /// Whether it looks at the end of a round, or else when every net has had its turn and what is
+    /// outside has not.
+    pub at_end: bool,
+    /// The condition that begins the interval.
+    pub begins: String,
+    /// The condition that ends the interval.
+    pub ends: String,
+    /// Largest count.
+    pub most: u32,
+}
+
+/// All requirements of a robot.
+///
+/// ```
+/// use cotama_models::robots::{Robot, requirements};
+/// let robot = Robot::shipped("transport").unwrap();
+/// let all = requirements::of(&robot);
+/// assert_eq!(all[1].id, "GS2");
+/// assert_eq!(all[1].sentence, "Halted, the robot stays stopped, and holds no permit to move.");
+/// ```
+pub fn of(robot: &Robot) -> Vec<Requirement> {
+    let mut all = Vec::new();
+    let mut ask = |id: String, sentence: String, watches: Vec<Watch>, text: String| {
+        all.push(Requirement { id, sentence, watches, text });
+    };
+    let plain = |it: &str| it.to_owned();
+    let places: Vec<_> =
+        robot.sub_objectives.iter().map(|it| format!("ls.{}", word(&it.name))).collect();
+    let driving = format!("ls.Idle + {} + ls.Waits + ls.End", places.join(" + "));
+
+    ask(
+        plain("GS1"),
+        plain("A global event is answered in the next round: the mission ends."),
+        vec![at_end(
+            "secured",
+            "gs.global_event.waiting | gs.no_way.waiting",
+            "gs.Security | gs.Safe",
+            2,
+        )],
+        plain("AG secured <= 1"),
+    );
+    ask(
+        plain("GS2"),
+        plain("Halted, the robot stays stopped, and holds no permit to move."),
+        Vec::new(),
+        plain(
+            "AG ((gs.Security | gs.Safe -> ls.Idle & permit.Destroyed) & \
+             (gs.Security -> AX (gs.Security | gs.Safe)) & (gs.Safe -> AX gs.Safe))",
+        ),
+    );
+    ask(
+        plain("GS3"),
+        plain("From everywhere the robot can rest or be stopped for good; and a drive can end."),
+        Vec::new(),
+        plain("EF ls.End & AG EF ((gs.Wait | gs.Safe) & ls.Idle)"),
+    );
+    ask(
+        plain("LS1"),
+        plain("A drive is in one place: at most one sub-objective is active."),
+        Vec::new(),
+        format!("AG {driving} = 1"),
+    );
+    let moves = |it: &SubObjective| it.moves.then(|| format!("ls.{}", word(&it.name)));
+    let moving: Vec<_> = robot.sub_objectives.iter().filter_map(moves).collect();
+    if !moving.is_empty() {
+        ask(
+            plain("LS2"),
+            plain("The robot may move exactly in the sub-objectives that have a speed."),
+            Vec::new(),
+            format!("AG (permit.Granted <-> {})", moving.join(" | ")),
+        );
+    }
+    severe(robot, &mut ask);
+    for it in robot.sub_objectives.iter().filter(|it| it.configurations.len() > 1) {
+        adapters(robot, it, &mut ask);
+    }
+    for (number, it) in robot.configurations.iter().enumerate() {
+        let (name, place) = (word(&it.name), place_of(robot, number));
+        ask(
+            format!("AS3.{name}"),
+            format!("`{}` can run.", it.name),
+            Vec::new(),
+            format!("EF {place}"),
+        );
+        let Some(lost) = cannot_run(robot, number) else { continue };
+        let watch = at_end(
+            &format!("without_{name}"),
+            &format!("{place} & ({lost})"),
+            &format!("!{place} | !({lost})"),
+            3,
+        );
+        ask(
+            format!("AS4.{name}"),
+            format!("`{}` runs at the ends of two rounds at most without what it needs.", it.name),
+            vec![watch],
+            format!("AG without_{name} <= 2"),
+        );
+    }
+    all
+}
+
+fn at_end(name: &str, begins: &str, ends: &str, most: u32) -> Watch {
+    let (begins, ends) = (begins.to_owned(), ends.to_owned());
+    Watch { name: name.to_owned(), at_end: true, begins, ends, most }
+}
+
+type Ask<'a> = dyn FnMut(String, String, Vec<Watch>, String) + 'a;
+
+/// What is fatal ends the mission; what is hard asks the operator, or ends it.
+fn severe(robot: &Robot, ask: &mut Ask<'_>) {
+    let told = |least: Severity| {
+        let all = robot.losses.reports.iter().filter(|it| it.restarts.is_none());
+        let severe = all.filter(|it| it.autonomous.min(it.operator) >= least);
+        severe.map(|it| format!("gom.flag_{}.waiting", word(&it.name))).collect::<Vec<_>>()
+    };
+    let fatal = told(Severity::Fatal);
+    if !fatal.is_empty() {
+        let watch = at_end("fatal", &fatal.join(" | "), "gs.Security | gs.Safe", 3);
+        ask(
+            "CS1".to_owned(),
+            "What is fatal ends the mission after two rounds.".to_owned(),
+            vec![watch],
+            "AG fatal <= 2".to_owned(),
+        );
+    }
+    let hard = told(Severity::Hard);
+    let own: Vec<_> =
+        robot.sub_objectives.iter().map(|it| format!("ls.{}", word(&it.name))).collect();
+    if hard.len() > fatal.len() {
+        let told = hard.join(" | ");
+        let hard = at_end("hard", &told, &format!("!({told})"), 1);
+        // The operator may answer in the round in which he is asked.
+        let answer = Watch {
+            at_end: false,
+            ..at_end(
+                "answer",
+                &format!("hard & ({})", own.join(" | ")),
+                "ls.Waits | ls.Idle | ls.End | gs.Security | gs.Safe",
+                2,
+            )
+        };
+        ask(
+            "CS2".to_owned(),
+            "What is hard stops what runs after two rounds: the operator is asked, or the mission \
+             ends."
+                .to_owned(),
+            vec![hard, answer],
+            "AG answer <= 1".to_owned(),
+        );
+    }
+}
+
+/// One configuration at a time, and only worse ones until the sub-objective ends.
+fn adapters(robot: &Robot, of: &SubObjective, ask: &mut Ask<'_>) {
+    let name = word(&of.name);
+    let places: Vec<_> = of.configurations.iter().map(|it| place_of(robot, *it)).collect();
+    ask(
+        format!("AS1.{name}"),
+        format!("`{}` runs one configuration at a time, and only where it is active.", of.name),
+        Vec::new(),
+        format!("AG ({name}.Off + {} = 1 & {name}.Off + ls.{name} = 1)", places.join(" + ")),
+    );
+    let worse = places.windows(2).enumerate().map(|(at, _)| {
+        let better = places[..=at].join(" | ");
+        format!("({} -> AX !({better}))", places[at + 1])
+    });
+    let worse: Vec<_> = worse.collect();
+    ask(
+        format!("AS2.{name}"),
+        format!("Until it ends, `{}` only degrades.", of.name),
+        Vec::new(),
+        format!("AG ({})", worse.join(" & ")),
+    );
+    debug_assert!(of.mode == Mode::Autonomous || robot.operator.is_some(), "a robot makes sense");
+}

@@ -1,0 +1,160 @@
+//! The supervisors that a robot's file makes, as one system.
+//!
+//! | net | is | from |
+//! | --- | --- | --- |
+//! | `gs` | global supervisor: one drive after another, or security | every robot has the same |
+//! | `ls` | local supervisor: which sub-objective runs, and the operator | sub-objectives, in order |
+//! | one for each sub-objective with several configurations | adapter: which modules run | ranks, required modules, losses |
+//! | `permit` | the permit to move | [`permit`] |
+//! | `gom` | observation: what is known to be lost, restarts | failures |
+//! | `cs` | contextual supervisor | [`decide`](super::decide) |
+//! | `faults`, `operator` | the surroundings, for the checker | failures, sub-objectives |
+//!
+//! (Durand et al., TAROS 2010, Section V.) Places of configurations and sub-objectives have their
+//! names, with `_` in place of all but letters and digits.
+
+mod cubes;
+mod draft;
+mod nets;
+mod owned;
+
+pub use owned::OwnedSystem;
+
+use super::{Mode, Robot};
+use crate::cotama::permit;
+use cotama_core::net::owned::OwnedNet;
+use nets::{configuration, has_adapter, lost, parts};
+
+/// Returns a name as nets have it: letters, digits and `_`.
+pub(crate) fn word(name: &str) -> String {
+    name.chars().map(|it| if it.is_ascii_alphanumeric() { it } else { '_' }).collect()
+}
+
+/// Returns the place that is marked where a configuration runs, as properties name it.
+pub(super) fn place_of(robot: &Robot, it: usize) -> String {
+    let of = robot.configurations.get(it).and_then(|it| robot.sub_objectives.get(it.sub_objective));
+    let Some(of) = of else { return String::new() };
+    if has_adapter(of) {
+        format!("{}.{}", word(&of.name), configuration(robot, it))
+    } else {
+        format!("ls.{}", word(&of.name))
+    }
+}
+
+/// Returns the condition under which a configuration cannot run, as far as is known, in the
+/// language of properties; `None` if it always can.
+pub(super) fn cannot_run(robot: &Robot, it: usize) -> Option<String> {
+    let cannot = |lost: u32| robot.running(lost) >> it & 1 == 0;
+    let cases = cubes::cubes(robot.losses.all(), 0, &cannot);
+    let cases = cases.into_iter().filter(|it| it.1).map(|(cube, _)| {
+        let all = 0..robot.losses.losses.len();
+        let all = all.filter_map(|loss| match (cube.lost >> loss & 1, cube.kept >> loss & 1) {
+            (1, _) => Some(format!("gom.{}", lost(robot, loss))),
+            (_, 1) => Some(format!("!gom.{}", lost(robot, loss))),
+            _ => None,
+        });
+        format!("({})", all.collect::<Vec<_>>().join(" & "))
+    });
+    let cases: Vec<_> = cases.collect();
+    (!cases.is_empty()).then(|| cases.join(" | "))
+}
+
+/// Makes the supervisors of a robot, with the surroundings in which they are checked.
+///
+/// ```
+/// use cotama_models::robots::{Robot, supervisors};
+/// let robot = Robot::shipped("transport").unwrap();
+/// let system = supervisors::system(&robot);
+/// let names: Vec<_> = system.nets.iter().map(|it| it.0.as_str()).collect();
+/// assert_eq!(names[..5], ["gs", "ls", "Follow", "Manual", "permit"]);
+/// system.with(|system| assert_eq!(system.defect(), None));
+/// ```
+pub fn system(robot: &Robot) -> OwnedSystem {
+    let (own, operator) = (parts(robot, Mode::Autonomous), parts(robot, Mode::Operator));
+    let all: Vec<_> = own.iter().chain(&operator).collect();
+    let doc = format!("The supervisors of {}, made from its file.", robot.name);
+    let mut system = OwnedSystem::new(&word(&robot.name), &doc);
+    system.net("gs", nets::global());
+    system.net("ls", nets::local(robot));
+    for it in all.iter().filter(|it| has_adapter(it.is)) {
+        system.net(&it.name, nets::adapter(robot, it));
+    }
+    system.net("permit", OwnedNet::from(&permit::NET));
+    system.net("gom", nets::observation(robot));
+    system.net("cs", nets::contextual(robot));
+    system.net("faults", nets::faults(robot));
+    if robot.operator.is_some() {
+        system.net("operator", nets::operator(robot));
+    }
+
+    system.mail(("gs", "start_drive"), ("ls", "start_drive"));
+    system.now(("gs", "gs_abort"), ("ls", "gs_abort"));
+    system.now(("gs", "halt"), ("permit", "halt"));
+    system.mail(("ls", "ended"), ("ls", "tick"));
+    system.mail(("ls", "drive_done"), ("gs", "drive_done"));
+    system.mail(("ls", "no_way"), ("gs", "no_way"));
+    system.mail(("cs", "global_event"), ("gs", "global_event"));
+    system.mail(("cs", "local_event"), ("ls", "local_event"));
+    for it in &all {
+        let (start, stop) = (format!("start_{}", it.name), format!("stop_{}", it.name));
+        if has_adapter(it.is) {
+            system.now(("ls", &start), (&it.name, "start"));
+            system.now(("ls", &stop), (&it.name, "stop"));
+            system.mail(("cs", &format!("adapt_{}", it.name)), (&it.name, "adapt"));
+        }
+        if it.is.moves {
+            system.now(("ls", &start), ("permit", "grant"));
+            system.now(("ls", &stop), ("permit", "revoke"));
+        }
+    }
+    for report in robot.losses.reports.iter().map(|it| word(&it.name)) {
+        let flag = format!("flag_{report}");
+        system.mail(("gom", &report), ("cs", &report));
+        system.mail(("faults", &flag), ("gom", &flag));
+    }
+    if robot.operator.is_some() {
+        system.mail(("operator", "refusal"), ("cs", "refusal"));
+        for it in &operator {
+            let done = format!("{}_done", it.name);
+            let choice = format!("op_{}", it.name);
+            system.now(("operator", &choice), ("ls", &choice));
+            system.now(("operator", &done), ("ls", &done));
+        }
+    }
+    shares(robot, &mut system, &all.iter().map(|it| it.name.as_str()).collect::<Vec<_>>());
+    system
+}
+
+/// Binds what nets see of one another.
+fn shares(robot: &Robot, system: &mut OwnedSystem, all: &[&str]) {
+    let has_operator = robot.operator.is_some();
+    let watching = if has_operator { &["cs", "operator"][..] } else { &["cs"] };
+    for by in watching {
+        system.share((by, "waits"), ("ls", "Waits"));
+    }
+    let operator = parts(robot, Mode::Operator);
+    for name in all {
+        let place = format!("in_{name}");
+        system.share(("cs", &place), ("ls", name));
+        if has_operator && operator.iter().any(|it| it.name == *name) {
+            system.share(("operator", &place), ("ls", name));
+        }
+    }
+    let adapters = robot.sub_objectives.iter().filter(|it| has_adapter(it));
+    let adapters: Vec<_> = adapters.map(|it| (word(&it.name), &it.configurations)).collect();
+    for (name, configurations) in &adapters {
+        for it in configurations.iter().map(|it| configuration(robot, *it)) {
+            system.share(("cs", &format!("runs_{it}")), (name, &it));
+        }
+    }
+    for flag in (0..robot.losses.losses.len()).map(|it| lost(robot, it)) {
+        let adapters = adapters.iter().map(|it| it.0.as_str());
+        for by in watching.iter().copied().chain(["ls"]).chain(adapters) {
+            system.share((by, &flag), ("gom", &flag));
+        }
+    }
+    system.pending(("ls", "local_pending"), ("ls", "local_event"));
+    system.pending(("ls", "global_pending"), ("gs", "global_event"));
+    system.clear(("ls", "gs_abort"), "local_event");
+    system.clear(("ls", "gs_abort"), "start_drive");
+}
