@@ -89,11 +89,10 @@ pub(super) fn makes_sense(robot: &Robot, at: &Places, sink: &Sink) -> bool {
             let help = "let a failure lose what the better ones need, or change the ranks";
             wrong(configuration(number), message, "never reached", help);
         } else if reached >> number & 1 == 0 {
-            let message = format!(
-                "{} never runs: the mission ends with each loss that would lead to it",
-                quoted(&it.name)
-            );
-            let help = "let a failure that leads to it be less severe, or leave it out";
+            let message =
+                format!("{} never runs: nothing leads there while it can run", quoted(&it.name));
+            let help = "let a failure that would lead there be less severe, or, for the operator, \
+                        let one be hard; or leave it out";
             wrong(configuration(number), message, "never reached", help);
         }
     }

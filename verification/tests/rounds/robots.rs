@@ -125,25 +125,29 @@ impl Drawn {
         let mut configurations = Vec::new();
         for sub_objective in 0..if operator.is_some() { 2 + below(3) } else { 1 + below(2) } {
             // Mostly, each does without a module of the one before it.
-            let mut all: BTreeSet<_> = (0..1 + below(3)).map(|_| below(many)).collect();
-            for _ in 0..1 + below(2) {
-                configurations.push((sub_objective, all.iter().copied().collect()));
-                if all.len() > 1 && below(8) > 0 {
-                    all.pop_last();
-                } else {
-                    all = BTreeSet::from([below(many)]);
+            let mut all: Vec<usize> = (0..many as usize).filter(|_| below(3) == 0).collect();
+            all.push(below(many));
+            all.sort_unstable();
+            all.dedup();
+            for _ in 0..1 + below(3) {
+                configurations.push((sub_objective, all.clone()));
+                // What others need is needed still: the last module is needed by none.
+                if all.len() < 2 || all.pop().is_none() {
+                    break;
                 }
             }
         }
         let mut failures = Vec::new();
-        for at in 0..2 + below(5) {
-            // Seldom fatal: much that leads anywhere is not.
-            let mut any = || if below(5) == 0 { 3 } else { below(3) };
-            let any = [any(), any()];
+        for at in 0..modules.len() + 2 {
+            // Mostly each module fails by itself, and mildly.
+            let mut severity = || [0, 1, 1, 2, 3][if below(4) > 0 { below(3) } else { below(5) }];
+            let severity = [severity(), severity()];
+            let severity = if operator.is_none() { [severity[0].min(1), 1] } else { severity };
+            let one = at < modules.len() && below(3) > 0;
             failures.push(Failure {
-                hardware: if below(3) == 0 { vec![below(hardware as u32)] } else { vec![] },
-                modules: if below(4) > 0 { vec![(at + below(2)) % modules.len()] } else { vec![] },
-                severity: if operator.is_none() && below(8) > 0 { [any[0] / 2, 1] } else { any },
+                hardware: if one || below(3) > 0 { vec![] } else { vec![below(hardware as u32)] },
+                modules: if one { vec![at] } else { vec![] },
+                severity,
                 restarts: below(6) == 0,
             });
         }
@@ -256,12 +260,11 @@ fn robots(seed: u64, count: usize) -> usize {
                 let said = errors.to_string();
                 let known = ["stands on no hardware", "never runs", "nobody to ask"];
                 let found: BTreeSet<_> = known.into_iter().filter(|it| said.contains(it)).collect();
-                // A loss with which the mission ends leads nowhere; that, severities alone cause.
-                let is_severe =
-                    drawn.failures.iter().any(|it| it.severity.iter().any(|it| *it > 1));
-                let explained = is_severe && said.contains("the mission ends with each loss");
-                let faults =
-                    if explained { &faults | &BTreeSet::from(["never runs"]) } else { faults };
+                // That nothing leads to a configuration follows from severities, which `faults`
+                // does not look at.
+                let by_severity = said.contains("nothing leads there while it can run");
+                let more = if by_severity { vec!["never runs"] } else { vec![] };
+                let faults: BTreeSet<_> = faults.into_iter().chain(more).collect();
                 assert_eq!(faults, found, "{number}: {said}\n{text}");
                 assert!(!faults.is_empty(), "{number}: {said}\n{text}");
             }
@@ -272,12 +275,12 @@ fn robots(seed: u64, count: usize) -> usize {
 
 #[test]
 fn drawn_robots_keep_their_requirements_or_are_refused_for_their_faults() {
-    let loaded = robots(1, 40);
-    assert!(loaded >= 5, "{loaded}");
+    let loaded = robots(1, 12);
+    assert!(loaded >= 2, "{loaded}");
 }
 
 #[test]
-#[ignore = "two thousand robots: minutes"]
-fn two_thousand_drawn_robots_keep_their_requirements() {
-    println!("{} of 2000 load", robots(2, 2_000));
+#[ignore = "two hundred robots: minutes"]
+fn two_hundred_drawn_robots_keep_their_requirements() {
+    println!("{} of 200 load", robots(2, 200));
 }
