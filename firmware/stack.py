@@ -17,8 +17,8 @@ import subprocess
 import sys
 
 FRAME = 104
-CASCADE = "cotama_core::player::cascade::"
-OBSERVER = "cotama_core::player::observer::"
+CASCADE = "cotama_nets::player::cascade::"
+OBSERVER = "cotama_nets::player::observer::"
 # Who calls through a register, and what: parts of names. The player's cascade tells a closure what
 # happens (`dyn FnMut`); one of them shows it to the observer that stands for anyone (`dyn Observer`),
 # which passes it on to the observer of the caller.

@@ -4,9 +4,9 @@
 #[path = "../core/tests/common/draw.rs"]
 pub mod draw;
 pub mod families;
-#[path = "../core/tests/allocators/instances.rs"]
+#[path = "../core/allocation/tests/allocators/instances.rs"]
 pub mod instances;
-#[path = "../core/tests/allocators/solve.rs"]
+#[path = "../core/allocation/tests/allocators/solve.rs"]
 pub mod solve;
 pub mod textbook;
 

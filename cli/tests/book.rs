@@ -249,7 +249,7 @@ fn the_page_of_the_languages_holds_the_documentation_of_the_macros() {
     }
     written.push_str(rest);
     let all = ["net/sections", "net/laws", "system/sections", "system/laws/law", "system/extends"];
-    assert_eq!(parts, all.map(|it| format!("src/{it}.md")));
+    assert_eq!(parts, all.map(|it| format!("nets/src/{it}.md")));
     cotama_golden::compare(&path, &written);
 }
 

@@ -4,7 +4,7 @@
 //!
 //! `no_std`, no heap, no floating point, no unsafe code, by default no dependency: the same code
 //! plans on a workstation, in a simulator and on a microcontroller, and gives the same plan
-//! everywhere.
+//! everywhere. This crate is a face over one for each purpose, and the only one to name.
 //!
 //! | module | what it is |
 //! | --- | --- |
@@ -36,52 +36,19 @@
 //! Memory comes from the caller, as slices; what it must hold is said where it is asked for. Costs
 //! are 32 bits and sums 64 bits wide, so that no sum of a [`problem::Problem`] can overflow.
 #![no_std]
-#![cfg_attr(any(test, kani), allow(clippy::pedantic))]
 
-#[cfg(feature = "alloc")]
-extern crate alloc;
-#[cfg(test)]
-extern crate std;
+#[doc(inline)]
+pub use cotama_allocation::{allocation, exact, front, hardware, monitor, panorama, problem};
+#[doc(inline)]
+pub use cotama_assignment as team;
+#[doc(inline)]
+pub use cotama_executive as executive;
+#[doc(inline)]
+pub use cotama_nets::{net, player, system};
+#[cfg(kani)]
+pub use cotama_units::proofs;
+#[doc(inline)]
+pub use cotama_units::{checksum, text, ticks, units};
 
-pub mod allocation;
-pub mod checksum;
-pub mod exact;
-pub mod executive;
-mod extension;
-pub mod front;
 #[doc = include_str!("guide.md")]
 pub mod guide {}
-pub mod hardware;
-mod logged;
-pub mod monitor;
-pub mod net;
-mod order;
-pub mod panorama;
-pub mod player;
-pub mod problem;
-#[cfg(kani)]
-pub mod proofs;
-pub mod system;
-pub mod team;
-pub mod text;
-pub mod ticks;
-pub mod units;
-
-/// Items that `net!` and `system!` expand to: no part of the API, and free to change.
-#[doc(hidden)]
-pub mod __private {
-    pub use crate::net::source::Written;
-    #[cfg(feature = "defmt")]
-    pub use defmt;
-    pub mod lower {
-        pub use crate::net::lower::*;
-        pub use crate::net::size::Size;
-    }
-    pub mod source {
-        pub use crate::net::source::*;
-    }
-    pub mod system {
-        pub use crate::system::laws::{Claim, check as check_laws};
-        pub use crate::system::source::*;
-    }
-}

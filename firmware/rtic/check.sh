@@ -39,7 +39,8 @@ check "format" cargo fmt --all --check
 lints() { cargo clippy --quiet --locked "$@" -- -D warnings; }
 check "lints of what runs on the host" lints -p cotama-rtic-host -p cotama-rtic-link
 check "lints of core with feature defmt" \
-    env -C ../.. cargo clippy --quiet --locked -p cotama-core --features defmt -- -D warnings
+    env -C ../.. cargo clippy --quiet --locked -p cotama-core -p cotama-nets -p cotama-units \
+    --features defmt -- -D warnings
 check "programs of the host" cargo build --quiet --locked -p cotama-rtic-host
 
 # image PACKAGE: by Debian's compiler; its panics name no folder of this machine.

@@ -11,7 +11,7 @@ mod readers;
 mod skips;
 mod systems;
 #[allow(dead_code, unreachable_pub)] // the core tests and benchmarks read it too
-#[path = "../../core/tests/team/teams.rs"]
+#[path = "../../core/assignment/tests/team/teams.rs"]
 mod team_tables;
 mod teams;
 mod tidy;

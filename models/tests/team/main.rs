@@ -13,10 +13,10 @@ mod conflicts;
 #[allow(unreachable_pub)]
 mod draw;
 mod laws;
-#[path = "../../../core/tests/team/tables.rs"]
+#[path = "../../../core/assignment/tests/team/tables.rs"]
 #[allow(unreachable_pub, dead_code)] // its other half is of the core's tests
 mod tables;
-#[path = "../../../core/tests/team/teams.rs"]
+#[path = "../../../core/assignment/tests/team/teams.rs"]
 #[allow(unreachable_pub)]
 mod teams;
 #[cfg(feature = "std")]

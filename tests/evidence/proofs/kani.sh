@@ -10,5 +10,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../../.."
 options=(--output-format terse -Z unstable-options --harness-timeout "${KANI_SECONDS:-300}s")
 for name in "$@"; do options+=(--harness "$name"); done
-cargo kani -p cotama-core "${options[@]}"
+for room in units nets executive allocation assignment; do
+    cargo kani -p "cotama-$room" "${options[@]}"
+done
 cargo kani -p cotama-models --no-default-features "${options[@]}"

@@ -346,9 +346,9 @@ requirements! {
         tested in "verification/tests/tpn/watchdog.rs";
     WD4 Inferred "In a loop of one period, a module that overruns delays the others by its extra \
                   time at most.",
-        tested in "core/src/executive/tests/watchdogs.rs";
+        tested in "core/executive/src/tests/watchdogs.rs";
     WD5 Inferred "A job that was skipped publishes nothing.",
-        tested in "core/src/executive/tests/watchdogs.rs";
+        tested in "core/executive/src/tests/watchdogs.rs";
     WD6 Inferred "A job in time ends the count.",
         tested in "verification/tests/tpn/watchdog.rs";
     DP1 Assumed "Between two rounds the robot may move only in path following and teleoperation.",

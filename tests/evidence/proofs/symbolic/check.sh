@@ -3,7 +3,7 @@
 #
 #   tests/evidence/proofs/symbolic/check.sh                    compares with holds.txt
 #   UPDATE_GOLDEN=1 tests/evidence/proofs/symbolic/check.sh    writes it anew
-#   tests/evidence/proofs/symbolic/check.sh NAME...            these: core::units::sums_never_wrap
+#   tests/evidence/proofs/symbolic/check.sh NAME...            these: units::units::sums_never_wrap
 #
 # Needs gcc, and a Python with what requirements.txt lists; PYTHON says which (default python3).
 # PROOF_SECONDS (default 120) is the limit for each harness. A canary must fail.

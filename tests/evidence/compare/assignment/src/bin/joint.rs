@@ -9,7 +9,7 @@
 #[path = "../../../../../../core/tests/common/draw.rs"]
 mod draw;
 #[allow(dead_code)]
-#[path = "../../../../../../core/tests/team/teams.rs"]
+#[path = "../../../../../../core/assignment/tests/team/teams.rs"]
 mod teams;
 
 use cotama_core::team::winners::{Outcome, Workspace};
