@@ -130,7 +130,9 @@ fn folder_of(package: &str) -> Result<&str, String> {
     match package {
         "cotama" => Ok("cli"),
         "robot" => Ok("firmware/robot"),
+        "cotama-campaign" => Ok("sim/campaign"),
         "cotama-drawing" => Ok("verification/drawing"),
+        "cotama-pages" => Ok("sim/pages"),
         _ => package.strip_prefix("cotama-").ok_or_else(|| format!("no package {package}")),
     }
 }
