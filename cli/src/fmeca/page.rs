@@ -1,14 +1,15 @@
 //! The FMECA as a page of its own: table, diagrams, diagnosability. Nothing comes from the network;
 //! a small script sorts and filters the rows, and without it all are there.
 
+use super::glossary;
 use super::matrix::{anchor, links, matrix};
-use super::{glossary, sheet};
 use crate::answers::fmeca::{Diagnosability, FmecaAnswer, FmecaRow, StatusRow};
 use crate::render::fmeca::{
     against, detected, heading, hours, left_out, seconds, sentence, shared, summary, worst,
 };
 use cotama_core::text::markup;
 use cotama_models::fmeca::Analysis;
+use cotama_pages::causes;
 use std::fmt::{Display, Write};
 
 /// Writes into a page, which cannot fail.
@@ -39,7 +40,7 @@ pub(crate) fn write(analysis: &Analysis, answer: &FmecaAnswer<'_>) -> String {
          <a href=\"#abbreviations\">Abbreviations</a></nav>\n",
         markup(&heading(answer)),
         include_str!("page.css"),
-        sheet::STYLE,
+        causes::STYLE,
         markup(title.trim_end_matches('.')),
         markup(&summary(answer)),
         markup(&worst(&answer.rows)),
@@ -229,9 +230,9 @@ fn diagrams(page: &mut String, analysis: &Analysis, answer: &FmecaAnswer<'_>) {
         "<section id=\"diagrams\">\n<h2>Cause-effect diagrams</h2>\n<p class=\"note\">One a \
          function: which component takes it away, how, and why.</p>\n",
     );
-    put!(page, "<figure>{}</figure>", sheet::legend_element(analysis));
+    put!(page, "<figure>{}</figure>", causes::legend(analysis));
     for diagram in &answer.diagrams {
-        put!(page, "<figure>{}</figure>", sheet::element(analysis, diagram.function));
+        put!(page, "<figure>{}</figure>", causes::element(analysis, diagram.function));
     }
     page.push_str("</section>\n");
 }

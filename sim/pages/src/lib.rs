@@ -1,8 +1,9 @@
-//! Pages that say what came of a mission, a team or a campaign.
+//! Pages that say what came of a mission, a team or a campaign, and pictures of an FMECA.
 //!
 //! | module | page |
 //! | --- | --- |
 //! | [`campaign`] | outcomes, causes and coverage of many runs |
+//! | [`causes`] | cause-effect diagrams of an FMECA |
 //! | [`mission`] | a run: what was planned, what happened, what changed and why |
 //! | [`team`] | a run of a team: who did what when |
 //!
@@ -15,6 +16,7 @@
 
 mod axis;
 pub mod campaign;
+pub mod causes;
 mod format;
 pub mod mission;
 mod svg;

@@ -1,40 +1,51 @@
-//! Diagrams as SVG files: one with its legend, or all on one sheet.
+//! Cause-effect diagrams of an FMECA: as SVG files, one with its legend or all on one sheet, and as
+//! elements of a page.
 
-use super::ishikawa::{diagram, legend};
-use super::scene::Scene;
+mod ishikawa;
+mod scene;
+
 use cotama_core::text::markup;
 use cotama_models::fmeca::Analysis;
+use ishikawa::diagram;
+use scene::Scene;
 
 /// The style of diagrams, in files and in the page.
-pub(crate) const STYLE: &str = include_str!("diagram.css");
+pub const STYLE: &str = include_str!("causes.css");
 
 /// A sheet is hardly wider, unless a diagram is.
 const WIDE: i64 = 1440;
 
-/// All diagrams on one sheet.
-pub(crate) fn all(analysis: &Analysis) -> String {
+/// Draws the diagrams of all functions on one sheet.
+///
+/// ```
+/// use cotama_models::fmeca::Analysis;
+/// use cotama_pages::causes;
+/// let sheet = causes::all(&Analysis::of_the_robot());
+/// assert!(sheet.starts_with("<svg xmlns=") && sheet.contains("cannot"));
+/// ```
+pub fn all(analysis: &Analysis) -> String {
     let diagrams: Vec<Scene> =
         analysis.functions().into_iter().map(|it| diagram(analysis, it)).collect();
     let title = format!("Cause-effect diagrams, {}: what takes a function away", analysis.title());
     file(&title, analysis, &diagrams)
 }
 
-/// The diagram of one function.
-pub(crate) fn one(analysis: &Analysis, function: &str) -> String {
+/// Draws the diagram of one function; of what is no function, an empty one.
+pub fn one(analysis: &Analysis, function: &str) -> String {
     let title = format!("Cause-effect diagram: cannot {function}");
     file(&title, analysis, &[diagram(analysis, function)])
 }
 
-/// The diagram of one function as an element of a page that has the style.
-pub(crate) fn element(analysis: &Analysis, function: &str) -> String {
+/// Draws the diagram of one function as an element of a page that has the style.
+pub fn element(analysis: &Analysis, function: &str) -> String {
     let scene = diagram(analysis, function);
     let label = format!("Cause-effect diagram: cannot {function}");
     inline(&label, &scene)
 }
 
-/// The legend as an element of a page that has the style.
-pub(crate) fn legend_element(analysis: &Analysis) -> String {
-    inline("What colours, letters and lines mean", &legend(analysis, 900))
+/// Draws the legend as an element of a page that has the style.
+pub fn legend(analysis: &Analysis) -> String {
+    inline("What colours, letters and lines mean", &ishikawa::legend(analysis, 900))
 }
 
 fn inline(label: &str, scene: &Scene) -> String {
@@ -51,7 +62,7 @@ fn inline(label: &str, scene: &Scene) -> String {
 fn file(title: &str, analysis: &Analysis, diagrams: &[Scene]) -> String {
     let widest = diagrams.iter().map(|it| it.width).max().unwrap_or(0);
     let most = if diagrams.len() > 1 { widest.max(WIDE) } else { widest };
-    let legend = legend(analysis, most);
+    let legend = ishikawa::legend(analysis, most);
     let mut body = legend.elements((0, 0));
     let (mut x, mut y, mut row) = (0, legend.height, 0);
     let mut width = legend.width;

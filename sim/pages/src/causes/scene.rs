@@ -2,12 +2,12 @@
 //! measured.
 
 use cotama_core::text::markup;
-use cotama_verification::drawing::svg::{bold_width, width};
+use cotama_drawing::svg::{bold_width, width};
 use std::fmt::Write;
 
 /// How a text looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Face {
+pub(super) enum Face {
     /// The function in the head.
     Head,
     /// A component.
@@ -33,12 +33,12 @@ impl Face {
     }
 
     /// The height of a line.
-    pub(crate) const fn line(self) -> i64 {
+    pub(super) const fn line(self) -> i64 {
         self.size() + 3
     }
 
     /// The height of several lines.
-    pub(crate) fn height(self, lines: &[String]) -> i64 {
+    pub(super) fn height(self, lines: &[String]) -> i64 {
         lines.iter().map(|_| self.line()).sum()
     }
 
@@ -54,7 +54,7 @@ impl Face {
     }
 
     /// How wide a text is.
-    pub(crate) fn width(self, text: &str) -> i64 {
+    pub(super) fn width(self, text: &str) -> i64 {
         match self {
             Self::Failure | Self::Quiet => width(text, self.size()),
             Self::Head | Self::Component | Self::Badge | Self::DarkBadge => {
@@ -64,7 +64,7 @@ impl Face {
     }
 
     /// A text in as few lines as it needs if they are hardly wider than this, about equally long.
-    pub(crate) fn lines(self, text: &str, most: i64) -> Vec<String> {
+    pub(super) fn lines(self, text: &str, most: i64) -> Vec<String> {
         let few = self.filled(text, most);
         let narrower = (1..most).step_by(4).map(|width| self.filled(text, width));
         narrower.into_iter().find(|lines| lines.len() <= few.len()).unwrap_or(few)
@@ -87,11 +87,11 @@ impl Face {
 }
 
 /// A place, to the right and down.
-pub(crate) type Place = (i64, i64);
+pub(super) type Place = (i64, i64);
 
 /// One thing in a drawing; `class` is for the style sheet.
 #[derive(Clone, Debug)]
-pub(crate) enum Item {
+pub(super) enum Item {
     /// A line, with an arrow at its end or without.
     Line { class: &'static str, from: Place, to: Place, arrow: bool },
     /// A box with a corner radius.
@@ -102,37 +102,37 @@ pub(crate) enum Item {
 
 /// Things that belong together, with words for who points at them.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Group {
-    pub(crate) title: String,
-    pub(crate) items: Vec<Item>,
+pub(super) struct Group {
+    pub(super) title: String,
+    pub(super) items: Vec<Item>,
 }
 
 /// A drawing.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Scene {
-    pub(crate) width: i64,
-    pub(crate) height: i64,
-    pub(crate) groups: Vec<Group>,
+pub(super) struct Scene {
+    pub(super) width: i64,
+    pub(super) height: i64,
+    pub(super) groups: Vec<Group>,
 }
 
 impl Group {
     /// Adds a text.
-    pub(crate) fn text(&mut self, face: Face, at: Place, text: impl Into<String>) {
+    pub(super) fn text(&mut self, face: Face, at: Place, text: impl Into<String>) {
         self.items.push(Item::Text { face, at, text: text.into() });
     }
 
     /// Adds a line.
-    pub(crate) fn line(&mut self, class: &'static str, from: Place, to: Place) {
+    pub(super) fn line(&mut self, class: &'static str, from: Place, to: Place) {
         self.items.push(Item::Line { class, from, to, arrow: false });
     }
 
     /// Adds a line with an arrow at its end.
-    pub(crate) fn arrow(&mut self, class: &'static str, from: Place, to: Place) {
+    pub(super) fn arrow(&mut self, class: &'static str, from: Place, to: Place) {
         self.items.push(Item::Line { class, from, to, arrow: true });
     }
 
     /// Adds a box.
-    pub(crate) fn rect(
+    pub(super) fn rect(
         &mut self,
         class: impl Into<String>,
         corner: Place,
@@ -145,7 +145,7 @@ impl Group {
 
 impl Scene {
     /// Returns the shapes as SVG elements, moved to a place.
-    pub(crate) fn elements(&self, (right, down): Place) -> String {
+    pub(super) fn elements(&self, (right, down): Place) -> String {
         let mut out = format!("<g transform=\"translate({right} {down})\">\n");
         for group in &self.groups {
             out.push_str("<g>");
@@ -195,7 +195,7 @@ fn element(out: &mut String, item: &Item) {
 #[cfg(test)]
 impl Scene {
     /// The texts with their boxes: left, top, right, bottom.
-    pub(crate) fn texts(&self) -> Vec<(&str, [i64; 4])> {
+    pub(super) fn texts(&self) -> Vec<(&str, [i64; 4])> {
         let items = self.groups.iter().flat_map(|group| &group.items);
         let text = |item| match item {
             &Item::Text { face, at: (x, y), ref text } => {
@@ -212,7 +212,7 @@ impl Scene {
     }
 
     /// The lines.
-    pub(crate) fn lines(&self) -> Vec<(Place, Place)> {
+    pub(super) fn lines(&self) -> Vec<(Place, Place)> {
         let items = self.groups.iter().flat_map(|group| &group.items);
         let line = |item: &Item| match item {
             &Item::Line { from, to, .. } => Some((from, to)),

@@ -77,7 +77,7 @@ const fn slope(distance: i64) -> i64 {
 }
 
 /// The diagram of a function; an empty one of what is no function.
-pub(crate) fn diagram(analysis: &Analysis, function: &str) -> Scene {
+pub(super) fn diagram(analysis: &Analysis, function: &str) -> Scene {
     let bones: Vec<Bone<'_>> = analysis.ribs(function).into_iter().map(Bone::new).collect();
     // Ribs stand above and below in turn, two at each foot.
     let reach =
@@ -211,7 +211,7 @@ fn badges(group: &mut Group, mode: &Mode, (left, top): Place) {
 }
 
 /// Draws the legend of colours, letters and lines, in lines no wider than `most`.
-pub(crate) fn legend(analysis: &Analysis, most: i64) -> Scene {
+pub(super) fn legend(analysis: &Analysis, most: i64) -> Scene {
     let mut scene = Scene { width: 0, height: MARGIN, groups: Vec::new() };
     let mut group = Group::default();
     let mut x = MARGIN;
