@@ -10,6 +10,7 @@ use crate::render::fmeca::{
 use cotama_core::text::markup;
 use cotama_models::fmeca::Analysis;
 use cotama_pages::causes;
+use cotama_verification::drawing;
 use std::fmt::{Display, Write};
 
 /// Writes into a page, which cannot fail.
@@ -29,18 +30,12 @@ pub(crate) fn write(analysis: &Analysis, answer: &FmecaAnswer<'_>) -> String {
         (sentence(answer.title), "Failure modes, effects and criticality.")
     };
     let mut page = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{}</title>\n\
-         <style>\n{}{}</style>\n</head>\n<body>\n<main>\n<h1>{}</h1>\n\
+        "<main>\n<h1>{}</h1>\n\
          <p>{about} {}.</p>\n<p>{}</p>\n\
          <nav><a href=\"#table\">Table</a> <a href=\"#matrix\">Criticality matrix</a> \
          <a href=\"#diagrams\">Cause-effect diagrams</a> \
          <a href=\"#diagnosability\">What cannot be told apart</a> \
          <a href=\"#abbreviations\">Abbreviations</a></nav>\n",
-        markup(&heading(answer)),
-        include_str!("page.css"),
-        causes::STYLE,
         markup(title.trim_end_matches('.')),
         markup(&summary(answer)),
         markup(&worst(&answer.rows)),
@@ -49,11 +44,11 @@ pub(crate) fn write(analysis: &Analysis, answer: &FmecaAnswer<'_>) -> String {
     page.push_str(&matrix(&answer.rows, answer.period_h));
     diagrams(&mut page, analysis, answer);
     diagnosability(&mut page, &answer.diagnosability);
-    let body = page.find("<body>").unwrap_or_default();
-    let glossary = glossary::section(&page[body..], answer.is_robot);
+    let glossary = glossary::section(&page, answer.is_robot);
     page.push_str(&glossary);
-    put!(page, "</main>\n<script>\n{}</script>\n</body>\n</html>", include_str!("page.js"));
-    page
+    put!(page, "</main>\n<script>\n{}</script>", include_str!("page.js"));
+    let styles = [drawing::page::THEME, causes::STYLE, include_str!("page.css")];
+    drawing::page::write(&heading(answer), &styles, &page)
 }
 
 /// An order of the rows: its name as an attribute, in words, and the number to sort by.

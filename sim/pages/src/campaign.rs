@@ -3,6 +3,7 @@
 mod pictures;
 
 use crate::format::{count, grouped};
+use crate::frame;
 use cotama_campaign::findings::Findings;
 use cotama_campaign::results::{Header, Tally};
 use cotama_campaign::run::Campaign;
@@ -45,14 +46,7 @@ pub fn html(
 ) -> String {
     let &Shown { sampling, confidence, .. } = shown;
     let name = markup(campaign.subject.name());
-    let mut page = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{name}: campaign report\
-         </title>\n<style>\n{}{}</style>\n</head>\n<body>\n<main>\n",
-        include_str!("style.css"),
-        include_str!("campaign.css")
-    );
+    let mut page = String::new();
     let team = campaign.subject.is_team();
     head(&mut page, header, shown, (&name, team), tally);
     outcomes(&mut page, team, tally, sampling, confidence);
@@ -67,8 +61,8 @@ pub fn html(
     }
     page.push_str(&pictures::settles(tally, sampling, confidence));
     assumptions(&mut page, header, sampling);
-    page.push_str("</main>\n</body>\n</html>\n");
-    page
+    let title = format!("{}: campaign report", campaign.subject.name());
+    frame::page(&title, &[include_str!("campaign.css")], &page)
 }
 
 fn head(

@@ -5,12 +5,14 @@ mod ishikawa;
 mod scene;
 
 use cotama_core::text::markup;
+use cotama_drawing::palette;
 use cotama_models::fmeca::Analysis;
 use ishikawa::diagram;
 use scene::Scene;
 
-/// The style of diagrams, in files and in the page.
-pub const STYLE: &str = include_str!("causes.css");
+/// The style of diagrams, in files and in pages, where severities have their colours by name too:
+/// `--weak`, `--medium`, `--hard`, `--fatal`.
+pub const STYLE: &str = concat!(palette!(".causes"), include_str!("causes.css"));
 
 /// A sheet is hardly wider, unless a diagram is.
 const WIDE: i64 = 1440;

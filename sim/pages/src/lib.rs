@@ -18,6 +18,7 @@ mod axis;
 pub mod campaign;
 pub mod causes;
 mod format;
+mod frame;
 pub mod mission;
 mod svg;
 pub mod team;

@@ -3,6 +3,7 @@
 //! The table of plans follows Tables 6 and 7 of Lambert et al., J. Intell. Robot. Syst. 110, 2024.
 
 use crate::format;
+use crate::frame;
 use cotama_core::text::markup;
 use cotama_sim::trace::{Header, Trace};
 use std::fmt::Write;
@@ -63,15 +64,7 @@ pub fn html(trace: &Trace) -> String {
 /// command.
 pub fn html_beside(trace: &Trace, written: Option<&str>) -> String {
     let view = View::new(trace);
-    let mut page = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{}: mission report</title>\n\
-         <style>\n{}</style>\n</head>\n<body>\n<main>\n",
-        markup(headline::name(&view)),
-        include_str!("style.css")
-    );
-    page.push_str(&headline::section(&view));
+    let mut page = headline::section(&view);
     if view.points.is_empty() {
         page.push_str(&strip::section(&view));
         page.push_str(&charts::section(&view));
@@ -83,12 +76,10 @@ pub fn html_beside(trace: &Trace, written: Option<&str>) -> String {
     page.push_str(&plans::section(&view));
     page.push_str(&activities::section(&view));
     page.push_str(&events::section(&view));
-    let body = page.find("<body>").unwrap_or_default();
-    let glossary = glossary::section(&view, &page[body..]);
+    let glossary = glossary::section(&view, &page);
     page.push_str(&glossary);
     footer(&mut page, &trace.header, written);
-    page.push_str("</main>\n</body>\n</html>\n");
-    page
+    frame::page(&format!("{}: mission report", headline::name(&view)), &[], &page)
 }
 
 fn footer(page: &mut String, header: &Header, written: Option<&str>) {

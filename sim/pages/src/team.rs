@@ -2,6 +2,7 @@
 
 use crate::axis::{Layout, NARROW, WIDE, draw_tick_labels, tick_label, ticks};
 use crate::format::{clock, count, grouped, percent, seconds};
+use crate::frame;
 use crate::svg::{Svg, fitted, fixed, text_width};
 use cotama_core::text::markup;
 use cotama_models::team::ErrorClass;
@@ -41,22 +42,14 @@ const COLOURS: [(&str, &str); 5] = [
 /// assert!(page.contains("All 2 tasks are done"));
 /// ```
 pub fn html(trace: &Trace) -> String {
-    let mut page = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{}: team report</title>\n\
-         <style>\n{}</style>\n</head>\n<body>\n<main>\n",
-        markup(&trace.header.scenario),
-        include_str!("style.css")
-    );
+    let mut page = String::new();
     head(&mut page, trace);
     gantt(&mut page, trace);
     wrong(&mut page, trace);
     auctions(&mut page, trace);
     messages(&mut page, trace);
     footer(&mut page, trace);
-    page.push_str("</main>\n</body>\n</html>\n");
-    page
+    frame::page(&format!("{}: team report", trace.header.scenario), &[], &page)
 }
 
 fn head(page: &mut String, trace: &Trace) {

@@ -7,6 +7,7 @@
 //! whatever is there.
 
 mod legend;
+mod palette;
 mod scene;
 mod style;
 mod text;
