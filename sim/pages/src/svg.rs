@@ -1,8 +1,7 @@
-//! A small writer of inline SVG: shapes with classes, coordinates with one decimal, text escaped.
-//!
-//! Colours and line widths are in the style sheet, so that a drawing follows light, dark and print.
+//! Inline SVG with coordinates of one decimal, and lines that leave out the texts in their way.
 
 use cotama_core::text::markup;
+use cotama_drawing::elements::Elements;
 use std::fmt::Write;
 
 /// A coordinate: one decimal, without a needless one.
@@ -69,12 +68,18 @@ struct Guide {
     bottom: f64,
 }
 
+/// Draws a rectangle; a negative width or height is none.
+fn rect(out: &mut Elements, class: &str, corner: [f64; 2], size: [f64; 2]) {
+    out.rect(class, corner.map(fixed), size.map(|it| fixed(it.max(0.0))));
+}
+
 /// A drawing under construction.
+#[derive(Default)]
 pub(crate) struct Svg {
     /// Elements under the guides.
-    ground: String,
+    ground: Elements,
     guides: Vec<Guide>,
-    body: String,
+    body: Elements,
     /// The boxes of all texts: left, top, right, bottom.
     texts: Vec<[f64; 4]>,
 }
@@ -82,19 +87,17 @@ pub(crate) struct Svg {
 impl Svg {
     /// An empty drawing.
     pub(crate) fn new() -> Self {
-        Self { ground: String::new(), guides: Vec::new(), body: String::new(), texts: Vec::new() }
+        Self::default()
     }
 
     /// A rectangle under everything.
     pub(crate) fn ground(&mut self, class: &str, corner: [f64; 2], size: [f64; 2]) {
-        let mut under = Self::new();
-        under.rect(class, corner, size);
-        self.ground.push_str(&under.body);
+        rect(&mut self.ground, class, corner, size);
     }
 
     /// A shape under everything.
     pub(crate) fn ground_path(&mut self, class: &str, commands: &str) {
-        let _ = write!(self.ground, "<path class=\"{class}\" d=\"{commands}\"/>");
+        self.ground.path(class, commands);
     }
 
     /// A vertical line that runs behind everything and leaves out the texts in its way.
@@ -104,56 +107,44 @@ impl Svg {
     }
 
     /// A rectangle; a negative width or height is none.
-    pub(crate) fn rect(&mut self, class: &str, [x, y]: [f64; 2], [width, height]: [f64; 2]) {
-        let (x, y, width, height) =
-            (fixed(x), fixed(y), fixed(width.max(0.0)), fixed(height.max(0.0)));
-        let _ = write!(
-            self.body,
-            "<rect class=\"{class}\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"/>"
-        );
+    pub(crate) fn rect(&mut self, class: &str, corner: [f64; 2], size: [f64; 2]) {
+        rect(&mut self.body, class, corner, size);
     }
 
     /// A straight line.
-    pub(crate) fn line(&mut self, class: &str, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2]) {
-        let (x1, y1, x2, y2) = (fixed(x1), fixed(y1), fixed(x2), fixed(y2));
-        let _ = write!(
-            self.body,
-            "<line class=\"{class}\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"/>"
-        );
+    pub(crate) fn line(&mut self, class: &str, from: [f64; 2], to: [f64; 2]) {
+        self.body.line(class, from.map(fixed), to.map(fixed));
     }
 
     /// A path given by its commands.
     pub(crate) fn path(&mut self, class: &str, commands: &str) {
         if !commands.is_empty() {
-            let _ = write!(self.body, "<path class=\"{class}\" d=\"{commands}\"/>");
+            self.body.path(class, commands);
         }
     }
 
     /// A circle.
-    pub(crate) fn circle(&mut self, class: &str, [x, y]: [f64; 2], radius: f64) {
-        let (x, y, radius) = (fixed(x), fixed(y), fixed(radius));
-        let _ =
-            write!(self.body, "<circle class=\"{class}\" cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>");
+    pub(crate) fn circle(&mut self, class: &str, centre: [f64; 2], radius: f64) {
+        self.body.circle(class, centre.map(fixed), fixed(radius));
     }
 
     /// Text with its base line at `y`; classes `m` and `e` put its middle or its end at `x`.
-    pub(crate) fn text(&mut self, class: &str, [x, y]: [f64; 2], text: &str) {
-        self.texts.push(text_box(class, [x, y], text));
-        let (x, y, text) = (fixed(x), fixed(y), markup(text));
-        let _ = write!(self.body, "<text class=\"{class}\" x=\"{x}\" y=\"{y}\">{text}</text>");
+    pub(crate) fn text(&mut self, class: &str, at: [f64; 2], text: &str) {
+        self.texts.push(text_box(class, at, text));
+        self.body.text(class, at.map(fixed), text);
     }
 
     /// Shapes that belong together, with words for those who point at them.
     pub(crate) fn titled(&mut self, title: &str, draw: impl FnOnce(&mut Self)) {
-        let _ = write!(self.body, "<g><title>{}</title>", markup(title));
+        self.body.add(format_args!("<g><title>{}</title>", markup(title)));
         draw(self);
         self.body.push_str("</g>");
     }
 
     /// Draws another drawing on top.
     pub(crate) fn append(&mut self, other: &Self) {
-        self.ground.push_str(&other.ground);
-        self.body.push_str(&other.body);
+        self.ground.push_str(other.ground.as_str());
+        self.body.push_str(other.body.as_str());
         self.texts.extend_from_slice(&other.texts);
     }
 
@@ -192,7 +183,8 @@ impl Svg {
         format!(
             "<svg class=\"{class}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
              aria-label=\"{label}\">{}{guides}{}</svg>\n",
-            self.ground, self.body
+            self.ground.as_str(),
+            self.body.as_str()
         )
     }
 }

@@ -2,6 +2,7 @@
 //! theme of pages.
 
 pub mod dot;
+pub mod elements;
 pub mod figure;
 mod layout;
 pub mod matrix;

@@ -1,9 +1,8 @@
 //! Drawings as data: shapes and texts with their places, so that what is drawn can also be
 //! measured.
 
-use cotama_core::text::markup;
+use cotama_drawing::elements::Elements;
 use cotama_drawing::svg::{bold_width, width};
-use std::fmt::Write;
 
 /// How a text looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -146,49 +145,34 @@ impl Group {
 impl Scene {
     /// Returns the shapes as SVG elements, moved to a place.
     pub(super) fn elements(&self, (right, down): Place) -> String {
-        let mut out = format!("<g transform=\"translate({right} {down})\">\n");
+        let mut out = Elements::default();
+        out.add(format_args!("<g transform=\"translate({right} {down})\">\n"));
         for group in &self.groups {
             out.push_str("<g>");
-            if !group.title.is_empty() {
-                let _ = write!(out, "<title>{}</title>", markup(&group.title));
-            }
+            out.title(&group.title);
             for item in &group.items {
-                element(&mut out, item);
+                draw(&mut out, item);
             }
             out.push_str("</g>\n");
         }
-        out + "</g>\n"
+        out.push_str("</g>\n");
+        out.into_string()
     }
 }
 
-fn element(out: &mut String, item: &Item) {
-    // Writing into a string cannot fail.
-    let _ = match item {
-        Item::Line { class, from: (x1, y1), to: (x2, y2), arrow } => {
-            let tip = if *arrow {
-                format!("<path class=\"tip {class}\" d=\"M{x2} {y2}l-10 -5v10z\"/>")
-            } else {
-                String::new()
-            };
-            write!(
-                out,
-                "<line class=\"{class}\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"/>{tip}"
-            )
+fn draw(out: &mut Elements, item: &Item) {
+    match *item {
+        Item::Line { class, from, to: (x, y), arrow } => {
+            out.line(class, from.into(), [x, y]);
+            if arrow {
+                out.path(&format!("tip {class}"), format_args!("M{x} {y}l-10 -5v10z"));
+            }
         }
-        Item::Rect { class, corner: (x, y), size: (width, height), radius } => write!(
-            out,
-            "<rect class=\"{class}\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
-             rx=\"{radius}\"/>"
-        ),
-        Item::Text { face, at: (x, y), text } => {
-            write!(
-                out,
-                "<text class=\"{}\" x=\"{x}\" y=\"{y}\">{}</text>",
-                face.class(),
-                markup(text)
-            )
+        Item::Rect { ref class, corner, size, radius } => {
+            out.rounded(class, corner.into(), size.into(), radius);
         }
-    };
+        Item::Text { face, at, ref text } => out.text(face.class(), at.into(), text),
+    }
 }
 
 /// Measurements for tests.
