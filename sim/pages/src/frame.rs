@@ -1,4 +1,5 @@
-//! The frame of the pages of runs and campaigns: the shared theme, their style sheet, their main part.
+//! The frame of the pages of runs and campaigns: the shared theme, their style sheet, their main
+//! part.
 
 use cotama_drawing::page::{THEME, write};
 

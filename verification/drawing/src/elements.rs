@@ -13,9 +13,8 @@ use std::fmt::{Arguments, Display, Write as _};
 /// let mut out = Elements::default();
 /// out.circle("token", [5, 8], 2);
 /// out.text("", [5.5, 8.0], "a < b");
-/// let [circle, text] =
-///     ["<circle class=\"token\" cx=\"5\" cy=\"8\" r=\"2\"/>", "<text x=\"5.5\" y=\"8\">a &lt; b</text>"];
-/// assert_eq!(out.as_str(), format!("{circle}{text}"));
+/// let circle = "<circle class=\"token\" cx=\"5\" cy=\"8\" r=\"2\"/>";
+/// assert_eq!(out.as_str(), format!("{circle}<text x=\"5.5\" y=\"8\">a &lt; b</text>"));
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Elements {

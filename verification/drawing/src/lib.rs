@@ -1,5 +1,5 @@
-//! A net or a system as a drawing: SVG, and the languages of Graphviz and Mermaid; the frame and the
-//! theme of pages.
+//! A net or a system as a drawing: SVG, and the languages of Graphviz and Mermaid; the frame and
+//! the theme of pages.
 
 pub mod dot;
 pub mod elements;
