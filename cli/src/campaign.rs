@@ -12,15 +12,15 @@ use crate::render;
 use crate::render::style::NAME;
 use crate::team::Chosen;
 use asked::Test;
+use cotama_campaign::findings::Findings;
+use cotama_campaign::results::{Header, Tally};
+use cotama_campaign::run::{Campaign, Line, Settings, Shard};
+use cotama_campaign::statistics::{Decision, Interval};
+use cotama_campaign::strategy::BLOCK;
+use cotama_campaign::subject::{Policy, Subject};
 use cotama_models::missions::Mission;
-use cotama_sim::campaign::findings::Findings;
-use cotama_sim::campaign::results::{Header, Tally};
-use cotama_sim::campaign::run::{Campaign, Line, Settings, Shard};
-use cotama_sim::campaign::statistics::{Decision, Interval};
-use cotama_sim::campaign::strategy::BLOCK;
-use cotama_sim::campaign::subject::{Policy, Subject};
+use cotama_pages::campaign::{self as page, Shown};
 use cotama_sim::options::STEPS;
-use cotama_sim::report;
 use std::ops::ControlFlow;
 use std::path::Path;
 use store::Store;
@@ -239,8 +239,8 @@ fn finish(
         scenarios(folder, &mut answer, &mut findings)?;
         if whole {
             let confidence = args.confidence();
-            let shown = report::campaign::Shown { planner: &answer.planner, sampling, confidence };
-            let page = report::campaign::html(header, campaign, tally, &findings, &shown);
+            let shown = Shown { planner: &answer.planner, sampling, confidence };
+            let page = page::html(header, campaign, tally, &findings, &shown);
             #[cfg(feature = "parquet")]
             parquet::write(folder, tally.runs)?;
             let path = folder.join("index.html");

@@ -8,7 +8,7 @@ use crate::exit::{Exit, Failure};
 use crate::output::Screen;
 use crate::render::{self, visible};
 use crate::subject::Subject;
-use cotama_sim::campaign::statistics::{clopper_pearson, okamoto_runs};
+use cotama_campaign::statistics::{clopper_pearson, okamoto_runs};
 use cotama_sim::estimate::{Asked, Draw, Tally, Wants, Witness, draw, replay};
 use cotama_verification::certificate::Evidence;
 use cotama_verification::check::{Answer, Verdict};

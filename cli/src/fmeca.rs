@@ -2,14 +2,11 @@
 
 mod diagnosability;
 mod glossary;
-mod ishikawa;
 mod markdown;
 mod matrix;
 mod names;
 mod page;
 mod rows;
-mod scene;
-mod sheet;
 
 use crate::answers::fmeca::FmecaAnswer;
 use crate::args::{FmecaArgs, FmecaFormat};
@@ -22,6 +19,7 @@ use crate::render;
 use crate::render::style::NAME;
 use clap::ValueEnum;
 use cotama_models::fmeca::Analysis;
+use cotama_pages::causes;
 use std::path::Path;
 
 /// Shows the analysis, or writes it in a format.
@@ -39,8 +37,8 @@ pub(crate) fn fmeca(args: &FmecaArgs, screen: &Screen) -> Result<Exit, Failure> 
         return shown(args, &answer(), screen);
     };
     let text = match (format, function) {
-        (FmecaFormat::Svg, Some(function)) => sheet::one(&analysis, function),
-        (FmecaFormat::Svg, None) => sheet::all(&analysis),
+        (FmecaFormat::Svg, Some(function)) => causes::one(&analysis, function),
+        (FmecaFormat::Svg, None) => causes::all(&analysis),
         (_, Some(_)) => return Err(only_drawings(name(format))),
         (FmecaFormat::Csv, None) => analysis.to_csv(),
         (FmecaFormat::Md, None) => markdown::write(&answer()),

@@ -5,9 +5,9 @@ use crate::exit::Failure;
 use crate::input;
 use crate::kind::{self, Kind};
 use crate::names::{is_name, near};
+use cotama_campaign::subject::Subject;
 use cotama_core::hardware::Equipment;
 use cotama_models::missions::{Definition, Mission, PlannedFor, embedded};
-use cotama_sim::campaign::subject::Subject;
 use cotama_sim::options::{By, Planner};
 use std::path::Path;
 

@@ -13,12 +13,12 @@ use crate::render;
 use crate::render::numbers::count;
 use crate::team::Chosen;
 use crate::words;
+use cotama_campaign::subject::Policy;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Event, EventKind, Faults, FaultsFile};
-use cotama_sim::campaign::subject::Policy;
+use cotama_pages::mission as page;
 use cotama_sim::options::{FaultChoice, Options, upward};
-use cotama_sim::report;
 use cotama_sim::run::{NoPlan, Reason, Run};
 use cotama_sim::trace::{RecordError, Trace};
 use std::path::{Path, PathBuf};
@@ -264,7 +264,7 @@ pub(crate) fn write_files(
         output::make_folder(folder)?;
         let path = folder.join("index.html");
         let written = body.trace.as_deref().or(stored).map(names::quoted);
-        output::file(&path, report::html_beside(trace, written.as_deref()).as_bytes())?;
+        output::file(&path, page::html_beside(trace, written.as_deref()).as_bytes())?;
         body.report = Some(path.display().to_string());
     }
     Ok(())

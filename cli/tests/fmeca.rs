@@ -345,16 +345,21 @@ fn texts_of_the_page_can_be_read_on_light_and_on_dark() {
     let style = page.split_once("<style>").unwrap().1.split_once("</style>").unwrap().0;
     // Paler text would escape the pairs below.
     assert!(!style.contains("opacity"));
-    let themes: Vec<&str> = style.split(":root {").skip(1).take(2).collect();
+    let rules = |with: &str| -> Vec<&str> {
+        let all = style.split(":root {").skip(1).filter_map(|it| it.split_once('}'));
+        all.map(|it| it.0).filter(|it| it.contains(with)).collect()
+    };
+    let (themes, severities) = (rules("--bg:"), rules("--fatal:"));
+    assert_eq!((themes.len(), severities.len()), (2, 2));
     let mut pairs = 0;
-    for theme in themes {
+    for theme in themes.into_iter().zip(severities).map(|it| [it.0, it.1].concat()) {
         let value = |name: &str| {
             let rest = theme.split_once(&format!("--{name}: ")).unwrap().1;
             rest.split(';').next().unwrap().to_owned()
         };
-        let text = value("text");
-        let mut held = vec![("white on fatal", "#fff".to_owned(), value("p-fatal"))];
-        for ground in ["bg", "soft", "p-weak", "p-medium", "p-hard"] {
+        let text = value("ink");
+        let mut held = vec![("white on fatal", "#fff".to_owned(), value("fatal"))];
+        for ground in ["bg", "soft", "weak", "medium", "hard"] {
             held.push((ground, text.clone(), value(ground)));
         }
         for (words, ground) in [("muted", "bg"), ("muted", "soft"), ("accent", "bg")] {

@@ -4,10 +4,10 @@
 //! `cargo bench -p cotama-sim --bench missions`; with any argument of its own it runs briefly.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss)]
 
+use cotama_campaign::space::{Rates, Space};
+use cotama_campaign::strategy::{Strategy, Uniform};
+use cotama_campaign::subject::{Policy, Subject};
 use cotama_models::missions::{Mission, embedded};
-use cotama_sim::campaign::space::{Rates, Space};
-use cotama_sim::campaign::strategy::{Strategy, Uniform};
-use cotama_sim::campaign::subject::{Policy, Subject};
 use cotama_sim::options::Options;
 use cotama_sim::setup::Simulation;
 use cotama_sim::trace::Record;

@@ -8,7 +8,6 @@
 #![cfg_attr(test, allow(clippy::pedantic, clippy::unwrap_used))]
 
 pub mod body;
-pub mod campaign;
 pub mod canonical;
 pub mod estimate;
 pub mod faults_text;
@@ -17,7 +16,6 @@ pub mod kernel;
 mod named;
 pub mod options;
 pub mod record;
-pub mod report;
 pub mod run;
 pub mod setup;
 pub mod solver;

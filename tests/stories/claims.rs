@@ -123,6 +123,7 @@ fn a_figure_of_a_page_is_the_one_that_a_test_asserts() {
     for folder in [
         "models/tests",
         "sim/tests",
+        "sim/campaign/tests",
         "verification/tests",
         "cli/tests",
         "tests/stories",

@@ -41,7 +41,7 @@ const LONG: [(&str, usize); 6] = [
     ("core/nets/src/player/player.rs", 460),
     ("core/nets/src/system/macros.rs", 470),
     ("models/src/missions/reader/fields.rs", 490),
-    ("sim/src/report/team.rs", 460),
+    ("sim/pages/src/team.rs", 460),
 ];
 
 /// Words of the map, and lines of the page for newcomers.

@@ -7,12 +7,12 @@ use crate::exit::Failure;
 use crate::mission;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
+use cotama_campaign::requirement::Requirement;
+use cotama_campaign::run::{MAX_FAULTS, MAX_RUNS, MAX_SHARDS, Shard};
+use cotama_campaign::space::Rates;
+use cotama_campaign::strategy::StrategyName;
+use cotama_campaign::subject::Policy;
 use cotama_models::missions::Mission;
-use cotama_sim::campaign::requirement::Requirement;
-use cotama_sim::campaign::run::{MAX_FAULTS, MAX_RUNS, MAX_SHARDS, Shard};
-use cotama_sim::campaign::space::Rates;
-use cotama_sim::campaign::strategy::StrategyName;
-use cotama_sim::campaign::subject::Policy;
 use cotama_sim::options::{Aim, Planner};
 use std::path::PathBuf;
 
@@ -194,8 +194,7 @@ fn rates() -> impl TypedValueParser<Value = Rates> {
 }
 
 fn requirement(text: &str) -> Result<Requirement, String> {
-    text.parse()
-        .map_err(|error: cotama_sim::campaign::requirement::NoRequirement| error.to_string())
+    text.parse().map_err(|error: cotama_campaign::requirement::NoRequirement| error.to_string())
 }
 
 fn per_run(text: &str) -> Result<(u64, u64), String> {

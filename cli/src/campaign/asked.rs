@@ -2,13 +2,13 @@
 
 use crate::args::CampaignArgs;
 use crate::exit::Failure;
+use cotama_campaign::requirement::Requirement;
+use cotama_campaign::requirements::Requirements;
+use cotama_campaign::run::{Campaign, MAX_RUNS, Settings};
+use cotama_campaign::space::Rates;
+use cotama_campaign::statistics::{Sprt, okamoto_runs};
+use cotama_campaign::strategy::StrategyName;
 use cotama_models::missions::Mission;
-use cotama_sim::campaign::requirement::Requirement;
-use cotama_sim::campaign::requirements::Requirements;
-use cotama_sim::campaign::run::{Campaign, MAX_RUNS, Settings};
-use cotama_sim::campaign::space::Rates;
-use cotama_sim::campaign::statistics::{Sprt, okamoto_runs};
-use cotama_sim::campaign::strategy::StrategyName;
 
 /// The kind of a campaign's subject.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,9 +5,9 @@ use crate::answers::campaign::{CampaignAnswer, Mean, Outcomes, PolicyRow};
 use crate::args::{CampaignArgs, PolicyName};
 use crate::exit::{Exit, Failure};
 use crate::output::Screen;
+use cotama_campaign::compare::{Compared, compare};
+use cotama_campaign::subject::Policy;
 use cotama_models::missions::Mission;
-use cotama_sim::campaign::compare::{Compared, compare};
-use cotama_sim::campaign::subject::Policy;
 use cotama_sim::options::Planner;
 
 /// The same plans with each policy.

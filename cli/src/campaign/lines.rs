@@ -2,8 +2,8 @@
 
 use crate::exit::Failure;
 use crate::input::plain;
-use cotama_sim::campaign::run::Line;
-use cotama_sim::campaign::strategy::BLOCK;
+use cotama_campaign::run::Line;
+use cotama_campaign::strategy::BLOCK;
 use cotama_sim::canonical;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};

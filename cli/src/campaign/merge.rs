@@ -10,11 +10,11 @@ use crate::exit::{Exit, Failure};
 use crate::kind::{self, Kind};
 use crate::mission;
 use crate::output::Screen;
+use cotama_campaign::results::{Header, Tally};
+use cotama_campaign::run::{Campaign, Shard};
+use cotama_campaign::subject::{Policy, Subject};
 use cotama_models::missions::Mission;
 use cotama_models::team::scenario::Scenario;
-use cotama_sim::campaign::results::{Header, Tally};
-use cotama_sim::campaign::run::{Campaign, Shard};
-use cotama_sim::campaign::subject::{Policy, Subject};
 use cotama_sim::options::STEPS;
 use std::path::Path;
 

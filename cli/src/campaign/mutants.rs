@@ -3,10 +3,10 @@
 use super::lines::{Block, Lines};
 use super::store::header_in;
 use crate::exit::Failure;
+use cotama_campaign::results::{Header, Tally};
+use cotama_campaign::run::Line;
+use cotama_campaign::strategy::BLOCK;
 use cotama_fuzz::Reader;
-use cotama_sim::campaign::results::{Header, Tally};
-use cotama_sim::campaign::run::Line;
-use cotama_sim::campaign::strategy::BLOCK;
 use std::path::Path;
 
 pub(crate) const CAMPAIGNS: Reader = Reader {
@@ -111,9 +111,9 @@ fn read_runs(bytes: &[u8]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cotama_campaign::run::{Campaign, Settings, Shard};
+    use cotama_campaign::subject::{Policy, Subject};
     use cotama_models::missions::{Mission, embedded};
-    use cotama_sim::campaign::run::{Campaign, Settings, Shard};
-    use cotama_sim::campaign::subject::{Policy, Subject};
 
     /// The corpus: a campaign whose requirements are one of each kind, part of it, and its runs.
     #[test]

@@ -3,8 +3,8 @@
 use super::lines::{Block, Lines};
 use crate::exit::Failure;
 use crate::output;
-use cotama_sim::campaign::run::Line;
-use cotama_sim::campaign::strategy::BLOCK;
+use cotama_campaign::run::Line;
+use cotama_campaign::strategy::BLOCK;
 use parquet::data_type::{ByteArray, ByteArrayType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;

@@ -9,8 +9,8 @@ use super::sums::{Again, Sums};
 use crate::exit::Failure;
 use crate::input;
 use crate::output;
-use cotama_sim::campaign::results::Header;
-use cotama_sim::campaign::run::Line;
+use cotama_campaign::results::Header;
+use cotama_campaign::run::Line;
 use cotama_verification::formats::json::read_object;
 use std::fs::{File, OpenOptions};
 use std::io::{BufReader, Seek, SeekFrom, Write};
@@ -161,7 +161,7 @@ pub(super) fn header_in(path: &str, text: &str) -> Result<Header, Failure> {
         Failure::of(path, format!("this is no campaign: {error}"))
             .help("`cotama campaign MISSION --out DIR` writes one")
     })?;
-    let is_mine = header.schema == cotama_sim::campaign::results::SCHEMA;
+    let is_mine = header.schema == cotama_campaign::results::SCHEMA;
     if !is_mine || header.version != env!("CARGO_PKG_VERSION") {
         let message = format!(
             "written by another version: {} of {}, this is {}",
@@ -180,7 +180,7 @@ pub(super) fn header_in(path: &str, text: &str) -> Result<Header, Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cotama_sim::campaign::run::{Settings, Shard};
+    use cotama_campaign::run::{Settings, Shard};
     use std::fs;
 
     #[test]

@@ -5,8 +5,8 @@
 
 use super::lines::Lines;
 use crate::exit::Failure;
-use cotama_sim::campaign::results::{Digest, Header};
-use cotama_sim::campaign::run::Line;
+use cotama_campaign::results::{Digest, Header};
+use cotama_campaign::run::Line;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};

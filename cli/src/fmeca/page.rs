@@ -1,14 +1,16 @@
 //! The FMECA as a page of its own: table, diagrams, diagnosability. Nothing comes from the network;
 //! a small script sorts and filters the rows, and without it all are there.
 
+use super::glossary;
 use super::matrix::{anchor, links, matrix};
-use super::{glossary, sheet};
 use crate::answers::fmeca::{Diagnosability, FmecaAnswer, FmecaRow, StatusRow};
 use crate::render::fmeca::{
     against, detected, heading, hours, left_out, seconds, sentence, shared, summary, worst,
 };
 use cotama_core::text::markup;
 use cotama_models::fmeca::Analysis;
+use cotama_pages::causes;
+use cotama_verification::drawing;
 use std::fmt::{Display, Write};
 
 /// Writes into a page, which cannot fail.
@@ -28,18 +30,12 @@ pub(crate) fn write(analysis: &Analysis, answer: &FmecaAnswer<'_>) -> String {
         (sentence(answer.title), "Failure modes, effects and criticality.")
     };
     let mut page = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{}</title>\n\
-         <style>\n{}{}</style>\n</head>\n<body>\n<main>\n<h1>{}</h1>\n\
+        "<main>\n<h1>{}</h1>\n\
          <p>{about} {}.</p>\n<p>{}</p>\n\
          <nav><a href=\"#table\">Table</a> <a href=\"#matrix\">Criticality matrix</a> \
          <a href=\"#diagrams\">Cause-effect diagrams</a> \
          <a href=\"#diagnosability\">What cannot be told apart</a> \
          <a href=\"#abbreviations\">Abbreviations</a></nav>\n",
-        markup(&heading(answer)),
-        include_str!("page.css"),
-        sheet::STYLE,
         markup(title.trim_end_matches('.')),
         markup(&summary(answer)),
         markup(&worst(&answer.rows)),
@@ -48,11 +44,11 @@ pub(crate) fn write(analysis: &Analysis, answer: &FmecaAnswer<'_>) -> String {
     page.push_str(&matrix(&answer.rows, answer.period_h));
     diagrams(&mut page, analysis, answer);
     diagnosability(&mut page, &answer.diagnosability);
-    let body = page.find("<body>").unwrap_or_default();
-    let glossary = glossary::section(&page[body..], answer.is_robot);
+    let glossary = glossary::section(&page, answer.is_robot);
     page.push_str(&glossary);
-    put!(page, "</main>\n<script>\n{}</script>\n</body>\n</html>", include_str!("page.js"));
-    page
+    put!(page, "</main>\n<script>\n{}</script>", include_str!("page.js"));
+    let styles = [drawing::page::THEME, causes::STYLE, include_str!("page.css")];
+    drawing::page::write(&heading(answer), &styles, &page)
 }
 
 /// An order of the rows: its name as an attribute, in words, and the number to sort by.
@@ -229,9 +225,9 @@ fn diagrams(page: &mut String, analysis: &Analysis, answer: &FmecaAnswer<'_>) {
         "<section id=\"diagrams\">\n<h2>Cause-effect diagrams</h2>\n<p class=\"note\">One a \
          function: which component takes it away, how, and why.</p>\n",
     );
-    put!(page, "<figure>{}</figure>", sheet::legend_element(analysis));
+    put!(page, "<figure>{}</figure>", causes::legend(analysis));
     for diagram in &answer.diagrams {
-        put!(page, "<figure>{}</figure>", sheet::element(analysis, diagram.function));
+        put!(page, "<figure>{}</figure>", causes::element(analysis, diagram.function));
     }
     page.push_str("</section>\n");
 }

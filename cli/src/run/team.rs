@@ -13,16 +13,16 @@ use crate::output::{self, Screen};
 use crate::render;
 use crate::team::{Chosen, Team};
 use compared::compared;
+use cotama_campaign::plan::{Fault, Plan};
+use cotama_campaign::recorded::{self, Again};
+use cotama_campaign::subject::Subject;
 use cotama_models::missions::embedded;
 use cotama_models::team::scenario::{self, FaultsOfTeam, Method, Scenario};
-use cotama_sim::campaign::plan::{Fault, Plan};
-use cotama_sim::campaign::recorded::{self, Again};
-use cotama_sim::campaign::subject::Subject;
+use cotama_pages::team as page;
 use cotama_sim::fleet::Kind as Letters;
 use cotama_sim::fleet::record::{Fate, Record};
 use cotama_sim::fleet::scenarios::{FleetOptions, ServiceOptions, fleet, service};
 use cotama_sim::fleet::trace::{self, Trace};
-use cotama_sim::report;
 use cotama_sim::trace::TraceError;
 use std::path::{Path, PathBuf};
 
@@ -251,7 +251,7 @@ fn written(trace: &Trace, file: Option<&Path>, report: Option<&Path>) -> Result<
     if let Some(folder) = report {
         output::make_folder(folder)?;
         let path = folder.join("index.html");
-        output::file(&path, report::team::html(trace).as_bytes())?;
+        output::file(&path, page::html(trace).as_bytes())?;
         run.report = Some(path.display().to_string());
     }
     Ok(run)

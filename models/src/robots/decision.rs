@@ -59,10 +59,9 @@ pub fn decide(robot: &Robot, report: usize, situation: Situation) -> Decision {
     let ask = || if robot.can_ask(lost) { Decision::Ask } else { Decision::Stop };
     match situation.at {
         Where::Rests if report.autonomous == Severity::Fatal => Decision::Stop,
-        Where::Rests => Decision::Record,
         Where::Waits if report.operator == Severity::Fatal => Decision::Stop,
         Where::Waits if report.loss.is_some() && !robot.can_ask(lost) => Decision::Stop,
-        Where::Waits => Decision::Record,
+        Where::Rests | Where::Waits => Decision::Record,
         Where::Runs { sub_objective, configuration } => {
             let mode = robot.sub_objectives.get(sub_objective).map(|it| it.mode);
             match report.severity(mode.unwrap_or(Mode::Autonomous)) {

@@ -75,7 +75,7 @@ fn robot(mut fields: Fields<'_>) -> Option<Robot> {
             fields.report(it.help("give each a name of its own"));
         }
     }
-    let hardware: Vec<_> = hardware.into_iter().map(|it| self::hardware(it)).collect();
+    let hardware: Vec<_> = hardware.into_iter().map(self::hardware).collect();
     let modules: Vec<_> = modules.into_iter().map(|it| module(it, &names)).collect();
     let observers = named(&mut fields, "observer", MAX_PARTS);
     let observers: Vec<_> = observers.into_iter().map(|it| observer(it, &mut names)).collect();

@@ -9,7 +9,7 @@
 //!      robot, bidding         each robot's broker and bidder
 //!      working, driver        each robot under COTAMA's decisional component
 //!      network                delay, loss, copies, counts
-//!  -> Run   record            numbers; Trace: what happened; report::team: a page of it
+//!  -> Run   record            numbers; Trace: what happened; cotama_pages::team: a page
 //! ```
 //!
 //! *The world* is a [`Floor`]: places, ways, distances. An object lies somewhere, or is on board;
@@ -48,7 +48,6 @@
 
 mod allocate;
 mod bid;
-pub mod campaign;
 mod driver;
 mod message;
 mod network;

@@ -1,7 +1,6 @@
 //! Properties of every run.
 
 use super::allocate::Allocator;
-use super::campaign::{Spread, compare};
 use super::record::{Fate, Record, Run};
 use super::scenarios::{FleetOptions, ServiceOptions, Worst, fleet, service, worst};
 use super::trace::{Trace, replay};
@@ -121,22 +120,6 @@ fn without_leases_or_deadlines_runs_are_not_sound() {
     assert!(unsound(Some(Planted::NoDeadline)) > 0);
 }
 
-#[test]
-#[ignore = "takes a minute"]
-fn every_task_is_done_once_or_reported_over_a_thousand_seeds() {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    for (number, loss_permille) in [10, 20, 50, 100, 200].into_iter().enumerate() {
-        let seed = 1_000 * number as u64;
-        let of = |seed, method| {
-            fleet(&FleetOptions { seed, loss_permille, method, ..FleetOptions::default() })
-        };
-        let results = compare(&of, seed, 200, &[Method::Optimal], threads);
-        let (ended, unsound) = (results[0].done + results[0].reported, results[0].unsound);
-        assert_eq!((ended, unsound), (200 * 200, 0), "{loss_permille}: {results:?}");
-        println!("{loss_permille}: {results:?}");
-    }
-}
-
 /// One robot, two tasks of the same cost and the same use: who has waited longer comes first, and
 /// one robot does one task.
 #[test]
@@ -210,16 +193,6 @@ fn of_two_tasks_the_one_that_waits_longer_is_given_out() {
         let second = if method == Method::OneByOne { 0 } else { 1 };
         assert_eq!([chosen([500, 0]), chosen([0, 500])], [[0], [second]], "{method:?}");
     }
-}
-
-#[test]
-fn a_spread_is_a_mean_rounded_half_away_from_zero_and_a_width_rounded_up() {
-    let of = |values: &[i64]| Spread::of(values).map(|it| (it.mean, it.half_width));
-    assert_eq!(of(&[]), None);
-    assert_eq!(of(&[7]), Some((7, 0)));
-    // 2.5 and 1.96 times the root of 5/12, 1.27; 25 and 49 sharp.
-    assert_eq!((of(&[1, 2, 3, 4]), of(&[-1, -2, -3, -4])), (Some((3, 2)), Some((-3, 2))));
-    assert_eq!(of(&[0, 50]), Some((25, 49)));
 }
 
 #[test]

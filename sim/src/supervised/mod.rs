@@ -217,9 +217,9 @@ impl<'m> Supervised<'m> {
         given.then_some(Self { compared: true, ..self })
     }
 
-    /// Not held against those that are shipped.
+    /// Supervisors of the caller's are not held against those that are shipped.
     #[must_use]
-    pub(crate) fn uncompared(self) -> Self {
+    pub fn uncompared(self) -> Self {
         Self { compared: false, ..self }
     }
 

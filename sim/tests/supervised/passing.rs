@@ -2,10 +2,10 @@
 //! that takes each of them.
 
 use super::delivery;
+use cotama_campaign::plan::Plan;
+use cotama_campaign::space::{Rates, Space};
 use cotama_core::units::Millis;
 use cotama_models::missions::Mission;
-use cotama_sim::campaign::plan::Plan;
-use cotama_sim::campaign::space::{Rates, Space};
 use cotama_sim::streams::Streams;
 use cotama_sim::supervised::{Script, Supervised};
 use cotama_sim::trace::Record;

@@ -198,7 +198,7 @@ proptest! {
             String::from_utf8_lossy(&bytes).into_owned()
         };
         if let Ok(trace) = Trace::parse("damaged", &damaged) {
-            let _ = cotama_sim::report::html(&trace);
+            let _ = cotama_pages::mission::html(&trace);
             let identical = replay(&trace).is_ok_and(|it| it.identical);
             let header = |text: &str| text.lines().next().unwrap_or_default().to_owned();
             prop_assert!(!identical || damaged == *GOLDEN || header(&damaged) != header(&GOLDEN));

@@ -132,7 +132,7 @@ fn folder_of(package: &str) -> Result<String, String> {
         "robot" => "firmware/robot",
         _ => package.strip_prefix("cotama-").ok_or_else(|| format!("no package {package}"))?,
     };
-    let mut folders = ["", "core/", "verification/"].iter().map(|it| format!("{it}{name}"));
+    let mut folders = ["", "core/", "verification/", "sim/"].iter().map(|it| format!("{it}{name}"));
     let found = folders.find(|it| root().join(it).join("Cargo.toml").is_file());
     found.ok_or_else(|| format!("no package {package}"))
 }

@@ -1,11 +1,11 @@
 //! Missions, faults, FMECAs, teams, traces, requirements.
 
 use super::checks::{errors, is_place, text};
+use cotama_campaign::requirement::Requirement;
 use cotama_models::fmeca::Analysis;
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, embedded};
 use cotama_models::team::instance::Instance;
-use cotama_sim::campaign::requirement::Requirement;
 use cotama_sim::trace::Trace;
 use std::sync::LazyLock;
 

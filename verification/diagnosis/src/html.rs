@@ -5,25 +5,22 @@ use super::timeline::timeline;
 use super::words::{counted, printable};
 use super::{Diagnosis, Step, Tokens};
 use cotama_core::text::markup;
+use cotama_drawing::palette;
 use std::fmt::Write as _;
 
 /// Firings that are listed at the beginning and at the end of a long run.
 const HEAD: usize = 100;
 const TAIL: usize = 200;
 
-const STYLE: &str = "\
-:root{color-scheme:light dark}
+const STYLE: &str = concat!(
+    palette!(".diagnosis"),
+    "\
 body{margin:0;background:#fff}
-.diagnosis{--paper:#fff;--ink:#1b1f24;--quiet:#57606a;--line:#d0d7de;--fill:#eef3f9;--bar:#3b6ea5;\
---count:#fff;\
---hot:#c2410c;--good:#1a7f4b;--glow:#fff3e6;\
-background:var(--paper);color:var(--ink);font:15px/1.5 Helvetica,Arial,'Liberation Sans',system-ui,\
-sans-serif;\
+.diagnosis{--rule:#d0d7de;--bar:#3b6ea5;--count:#fff;--good:#1a7f4b;--pale:#fff3e6;\
+background:var(--paper);color:var(--ink);font-size:15px;line-height:1.5;\
 max-width:1352px;margin:0 auto;padding:24px}
 @media screen and (prefers-color-scheme:dark){body{background:#14181d}
-.diagnosis{--paper:#14181d;--ink:#e6eaef;--quiet:#a0abb7;--line:#343c46;--fill:#222b36;\
---bar:#6ea8e0;--count:#10151b;\
---hot:#fb923c;--good:#4ac27f;--glow:#33230f}}
+.diagnosis{--rule:#343c46;--bar:#6ea8e0;--count:#10151b;--good:#4ac27f;--pale:#33230f}}
 .diagnosis h1{font-size:20px;line-height:1.35;margin:0 0 12px;overflow-wrap:anywhere}
 .diagnosis h2{font-size:15px;margin:28px 0 8px}
 .diagnosis .net{color:var(--quiet);margin:0 0 4px}
@@ -31,18 +28,18 @@ max-width:1352px;margin:0 auto;padding:24px}
 background:var(--fill);\
 border-radius:4px;padding:1px 4px;overflow-wrap:anywhere}
 .diagnosis table code,.diagnosis table span{white-space:nowrap}
-.diagnosis .cause{border-left:4px solid var(--hot);background:var(--glow);padding:8px 14px;margin:0}
+.diagnosis .cause{border-left:4px solid var(--hot);background:var(--pale);padding:8px 14px;margin:0}
 .diagnosis .holds .cause{border-color:var(--good);background:var(--fill)}
 .diagnosis .cause p{margin:2px 0}
 .diagnosis .scroll{overflow-x:auto}
 .diagnosis table{border-collapse:collapse;width:100%}
 .diagnosis th{text-align:left;font-weight:600;color:var(--quiet);\
-border-bottom:1px solid var(--line)}
+border-bottom:1px solid var(--rule)}
 .diagnosis th,.diagnosis td{padding:4px 12px 4px 0;vertical-align:top}
-.diagnosis td{border-bottom:1px solid var(--line)}
+.diagnosis td{border-bottom:1px solid var(--rule)}
 .diagnosis td.number{color:var(--quiet);text-align:right;width:3em;\
 font-variant-numeric:tabular-nums}
-.diagnosis tr.last td{background:var(--glow)}
+.diagnosis tr.last td{background:var(--pale)}
 .diagnosis tr.note td{color:var(--quiet);font-style:italic}
 .diagnosis .more{color:var(--good)}
 .diagnosis .less{color:var(--quiet)}
@@ -53,7 +50,7 @@ font-variant-numeric:tabular-nums}
 .diagnosis .timeline .row{text-anchor:end}
 .diagnosis .timeline .number{text-anchor:middle;fill:var(--quiet);font-size:11px}
 .diagnosis .timeline .count{text-anchor:middle;fill:var(--count);font-weight:600}
-.diagnosis .timeline .grid{stroke:var(--line);stroke-width:1}
+.diagnosis .timeline .grid{stroke:var(--rule);stroke-width:1}
 .diagnosis .timeline .bar{fill:var(--bar)}
 .diagnosis .timeline .atom{fill:var(--hot)}
 .diagnosis .timeline .cycle{fill:var(--hot);opacity:.14}
@@ -64,9 +61,10 @@ background:var(--paper)}
 .diagnosis .player[hidden]{display:none}
 .diagnosis .player input{flex:1;max-width:420px;accent-color:var(--bar)}
 .diagnosis .player button{font:inherit;color:inherit;background:var(--fill);\
-border:1px solid var(--line);border-radius:4px;padding:2px 10px}
+border:1px solid var(--rule);border-radius:4px;padding:2px 10px}
 .diagnosis figure svg{display:block}
-";
+"
+);
 
 impl Diagnosis {
     /// A page of its own: what [`Display`](std::fmt::Display) says, bars of the places that the
@@ -227,13 +225,7 @@ impl Diagnosis {
 
 /// A page around a section.
 pub(super) fn page(title: &str, section: &str) -> String {
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{}\
-         </title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n{section}</body>\n</html>\n",
-        markup(title)
-    )
+    cotama_drawing::page::write(title, &[STYLE], section)
 }
 
 impl Diagnosis {

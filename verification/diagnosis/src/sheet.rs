@@ -5,6 +5,7 @@ use super::words::printable;
 use super::{Diagnosis, Unused};
 use cotama_core::net::Net;
 use cotama_core::text::markup;
+use cotama_drawing::elements::Elements;
 use cotama_drawing::svg::{STYLE, bold_width, short, width};
 use std::fmt::Write as _;
 
@@ -32,7 +33,7 @@ white-space:pre}
 
 /// Lines and frames, one below the other.
 struct Sheet {
-    out: String,
+    out: Elements,
     /// Top of the next line or frame, in pixels.
     y: i64,
     width: i64,
@@ -104,7 +105,7 @@ impl Sheet {
         let across = |columns: i64| columns * (widest(frames) + GAP) - GAP + 2 * MARGIN;
         let width =
             (1..=columns).map(across).take_while(|it| *it <= WIDEST).last().unwrap_or(across(1));
-        Self { out: String::new(), y: MARGIN, width: WIDTH.max(width) }
+        Self { out: Elements::default(), y: MARGIN, width: WIDTH.max(width) }
     }
 
     /// A sentence with names in backticks, in as many lines as it takes.
@@ -148,10 +149,8 @@ impl Sheet {
     /// A line of markup.
     fn line(&mut self, class: &str, size: i64, markup: &str) {
         let base = self.y + size;
-        let _ = writeln!(
-            self.out,
-            "<text class=\"{class}\" x=\"{MARGIN}\" y=\"{base}\">{markup}</text>"
-        );
+        self.out.rich_text(class, [MARGIN, base], markup);
+        self.out.push_str("\n");
         self.y += size + size / 2;
     }
 
@@ -177,21 +176,17 @@ impl Sheet {
                 let x = MARGIN + count(at) * (widest + GAP);
                 let mut caption = short(&frame.caption);
                 while bold_width(&caption, 12) > widest && caption.pop().is_some() {}
-                let last = if frame.is_last { " last" } else { "" };
+                let last = if frame.is_last { "frame last" } else { "frame" };
                 let inset = (widest - frame.part.width) / 2;
-                let _ = write!(
-                    self.out,
-                    "<text class=\"caption\" x=\"{x}\" y=\"{}\">{}</text>\n\
-                     <rect class=\"frame{last}\" x=\"{x}\" y=\"{}\" width=\"{widest}\" \
-                     height=\"{height}\" rx=\"6\"/>\n\
-                     <g transform=\"translate({} {})\">\n{}</g>\n",
-                    top + 12,
-                    markup(&caption),
-                    top + 20,
+                self.out.text("caption", [x, top + 12], &caption);
+                self.out.push_str("\n");
+                self.out.rounded(last, [x, top + 20], [widest, height], 6);
+                self.out.add(format_args!(
+                    "\n<g transform=\"translate({} {})\">\n{}</g>\n",
                     x + inset,
                     top + 20,
                     frame.part.text
-                );
+                ));
             }
             self.y = top + 20 + height;
         }
@@ -206,8 +201,9 @@ impl Sheet {
              height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
              aria-labelledby=\"title\">\n\
              <title id=\"title\">{}</title>\n<style>\n{STYLE}{MORE_STYLE}</style>\n\
-             <rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\n{out}</svg>\n",
-            markup(title)
+             <rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\n{}</svg>\n",
+            markup(title),
+            out.as_str()
         )
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{AtomTrack, Diagnosis, Track};
 use cotama_core::text::markup;
-use std::fmt::Write as _;
+use cotama_drawing::elements::Elements;
 
 /// The most markings that are drawn; of a longer run the last ones.
 const SHOWN: usize = 80;
@@ -17,7 +17,7 @@ const NAME: usize = 36;
 
 /// Bars, row by row.
 struct Bars {
-    out: String,
+    out: Elements,
     /// The first marking that is drawn, and how many are.
     first: usize,
     count: usize,
@@ -42,14 +42,14 @@ pub(super) fn timeline(diagnosis: &Diagnosis) -> Option<String> {
         names.map(|it| super::words::printable(it).chars().count().min(NAME)).max().unwrap_or(0);
     let left = longest.max(4) * CHARACTER + 20;
     let cell = (720 / count).clamp(9, 44);
-    let mut bars = Bars { out: String::new(), first: all - count, count, cell, rows: 0, left };
+    let mut bars =
+        Bars { out: Elements::default(), first: all - count, count, cell, rows: 0, left };
     let (width, height) = (left + count * cell + 12, TOP + rows * ROW + 26);
-    let _ = write!(
-        bars.out,
+    bars.out.add(format_args!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"timeline\" width=\"{width}\" \
          height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\">\n\
          <title>Tokens after each step</title>\n",
-    );
+    ));
     bars.axis(diagnosis, rows);
     for track in &diagnosis.watched {
         bars.place(track);
@@ -58,7 +58,7 @@ pub(super) fn timeline(diagnosis: &Diagnosis) -> Option<String> {
         bars.atom(track);
     }
     bars.out.push_str("</svg>\n");
-    Some(bars.out)
+    Some(bars.out.into_string())
 }
 
 impl Bars {
@@ -72,28 +72,23 @@ impl Bars {
         let every = 28_usize.div_ceil(self.cell);
         for marking in self.first..self.first + self.count {
             let x = self.x(marking);
-            let _ = write!(self.out, "<path class=\"grid\" d=\"M{x} {TOP}V{bottom}\"/>");
+            self.out.path("grid", format_args!("M{x} {TOP}V{bottom}"));
             if marking.is_multiple_of(every) {
                 let text = if marking == 0 { "start".to_owned() } else { marking.to_string() };
-                let _ = writeln!(
-                    self.out,
-                    "<text class=\"number\" x=\"{}\" y=\"{}\">{text}</text>",
-                    x + self.cell / 2,
-                    bottom + 16
-                );
+                self.out.text("number", [x + self.cell / 2, bottom + 16], &text);
+                self.out.push_str("\n");
             }
         }
         if let Some(start) =
             diagnosis.cycle_starts_at.map(|it| it + 1).filter(|it| *it >= self.first)
         {
             let (x, end) = (self.x(start), self.x(self.first + self.count));
-            let _ = writeln!(
-                self.out,
+            self.out.add(format_args!(
                 "<rect class=\"cycle\" x=\"{x}\" y=\"{TOP}\" width=\"{}\" height=\"{}\">\
-                 <title>repeats for ever</title></rect>",
+                 <title>repeats for ever</title></rect>\n",
                 end - x,
                 bottom - TOP
-            );
+            ));
         }
     }
 
@@ -106,14 +101,8 @@ impl Bars {
         } else {
             text.clone()
         };
-        let _ = write!(
-            self.out,
-            "<text class=\"row\" x=\"{}\" y=\"{}\">{}<title>{}</title></text>",
-            self.left - 10,
-            y + ROW / 2 + 4,
-            markup(&short),
-            markup(&text)
-        );
+        let text = format!("{}<title>{}</title>", markup(&short), markup(&text));
+        self.out.rich_text("row", [self.left - 10, y + ROW / 2 + 4], &text);
         y
     }
 
@@ -147,23 +136,11 @@ impl Bars {
             let (from, to) = (self.x(at), self.x(at + stretch.len()));
             at += stretch.len();
             let Some(text) = stretch.first().and_then(|it| text(*it)) else { continue };
-            let _ = write!(
-                self.out,
-                "<rect class=\"{class}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"3\"/>",
-                from + 1,
-                y + 4,
-                to - from - 2,
-                ROW - 8
-            );
+            self.out.rounded(class, [from + 1, y + 4], [to - from - 2, ROW - 8], 3);
             if !text.is_empty() {
-                let _ = write!(
-                    self.out,
-                    "<text class=\"count\" x=\"{}\" y=\"{}\">{text}</text>",
-                    usize::midpoint(from, to),
-                    y + ROW / 2 + 4
-                );
+                self.out.text("count", [usize::midpoint(from, to), y + ROW / 2 + 4], &text);
             }
         }
-        self.out.push('\n');
+        self.out.push_str("\n");
     }
 }

@@ -7,10 +7,12 @@
 //! whatever is there.
 
 mod legend;
+mod palette;
 mod scene;
 mod style;
 mod text;
 
+use super::elements::Elements;
 use super::figure::{Figure, Flow, Kind, Label, Style};
 use super::layout::{Outline, Point, Run};
 use cotama_core::net::{Net, Place, PlaceId, TransitionId};
@@ -72,11 +74,11 @@ pub fn write_highlighted(net: &Net<'_>, style: Style, highlight: &Highlight<'_>)
 }
 
 fn written(net: &Net<'_>, scene: &Scene<'_>, kind: &str, highlight: &Highlight<'_>) -> String {
-    let mut out = Svg { text: String::new(), prefix: "" };
+    let mut out = Svg { out: Elements::default(), prefix: "" };
     out.head(scene, kind);
     out.body(net, scene, highlight);
-    out.text.push_str("</svg>\n");
-    out.text
+    out.out.push_str("</svg>\n");
+    out.out.into_string()
 }
 
 /// A drawing to be put into another one that has the [`STYLE`] and the class `cotama`.
@@ -93,29 +95,24 @@ pub struct Part {
 /// Draws a net as a part of another drawing. Identifiers begin with a prefix.
 pub fn part(net: &Net<'_>, style: Style, highlight: &Highlight<'_>, prefix: &str) -> Part {
     let scene = Scene::of(net, Figure::of(net, style), highlight);
-    let mut out = Svg { text: String::new(), prefix };
+    let mut out = Svg { out: Elements::default(), prefix };
     out.body(net, &scene, highlight);
-    Part { width: scene.layout.width, height: scene.layout.height, text: out.text }
+    Part { width: scene.layout.width, height: scene.layout.height, text: out.out.into_string() }
 }
 
 struct Svg<'p> {
-    text: String,
+    out: Elements,
     /// Prefix of identifiers.
     prefix: &'p str,
 }
 
 impl Svg<'_> {
-    fn add(&mut self, arguments: std::fmt::Arguments<'_>) {
-        // Writing into a string cannot fail.
-        let _ = self.text.write_fmt(arguments);
-    }
-
     fn head(&mut self, scene: &Scene<'_>, kind: &str) {
         let (width, height) = (scene.layout.width, scene.layout.height);
         let figure = &scene.figure;
         let doc =
             if figure.doc.is_empty() { kind.to_owned() } else { format!("{kind}. {}", figure.doc) };
-        self.add(format_args!(
+        self.out.add(format_args!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"cotama\" width=\"{width}\" \
              height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
              aria-labelledby=\"title desc\">\n\
@@ -128,15 +125,15 @@ impl Svg<'_> {
     }
 
     fn body(&mut self, net: &Net<'_>, scene: &Scene<'_>, highlight: &Highlight<'_>) {
-        self.text.push_str("<g class=\"edges\">\n");
+        self.out.push_str("<g class=\"edges\">\n");
         for edge in 0..scene.figure.edges.len() {
             self.edge(net, scene, edge, highlight);
         }
-        self.text.push_str("</g>\n<g class=\"nodes\">\n");
+        self.out.push_str("</g>\n<g class=\"nodes\">\n");
         for node in 0..scene.figure.nodes.len() {
             self.node(net, scene, node);
         }
-        self.text.push_str("</g>\n");
+        self.out.push_str("</g>\n");
     }
 
     fn edge(&mut self, net: &Net<'_>, scene: &Scene<'_>, at: usize, highlight: &Highlight<'_>) {
@@ -148,12 +145,12 @@ impl Svg<'_> {
         };
         let hot = if scene.is_hot(at, highlight) { " hot" } else { "" };
         let prefix = self.prefix;
-        self.add(format_args!("<g id=\"{prefix}edge-{at}\" class=\"{class}{hot}\">"));
-        self.title(&labels_title(net, &edge.labels));
+        self.out.add(format_args!("<g id=\"{prefix}edge-{at}\" class=\"{class}{hot}\">"));
+        self.out.title(&labels_title(net, &edge.labels));
         let label = &scene.labels[at];
         let Some(route) = scene.route_of[at].map(|route| &scene.layout.routes[route]) else {
             self.loop_at(scene, edge.from);
-            self.text.push_str("</g>\n");
+            self.out.push_str("</g>\n");
             return;
         };
         let last = route.lines.len().saturating_sub(1);
@@ -169,34 +166,38 @@ impl Svg<'_> {
         if let Some(centre) = route.label {
             self.block(label, Point { x: centre.x, y: centre.y - label.height / 2 }, "middle");
         }
-        self.text.push_str("</g>\n");
+        self.out.push_str("</g>\n");
     }
 
     /// A line along its runs. It ends where the tips begin.
     fn line(&mut self, runs: &[Run], start: Tip, end: Tip) {
         let [Some(first), Some(last)] = [runs.first(), runs.last()] else { return };
         let (away, onward) = ((first.to - first.from).signum(), (last.to - last.from).signum());
-        self.text.push_str("<path class=\"line\" d=\"");
+        let mut path = String::new();
         let mut before: Option<Point> = None;
         for (at, run) in runs.iter().enumerate() {
             let from = if at == 0 { run.from + away * start.length() } else { run.from };
             let to = if at + 1 == runs.len() { run.to - onward * end.length() } else { run.to };
             match before {
-                None => self.add(format_args!("M{} {from}", run.x)),
+                None => put(&mut path, format_args!("M{} {from}", run.x)),
                 Some(point) if point.x == run.x => {}
                 Some(point) => {
                     let middle = i64::midpoint(point.y, from);
-                    self.add(format_args!(
-                        "V{}C{} {middle} {} {middle} {} {from}",
-                        point.y, point.x, run.x, run.x
-                    ));
+                    put(
+                        &mut path,
+                        format_args!(
+                            "V{}C{} {middle} {} {middle} {} {from}",
+                            point.y, point.x, run.x, run.x
+                        ),
+                    );
                 }
             }
             before = Some(Point { x: run.x, y: to });
         }
         if let Some(point) = before {
-            self.add(format_args!("V{}\"/>", point.y));
+            put(&mut path, format_args!("V{}", point.y));
         }
+        self.out.path("line", path);
         self.tip(Point { x: first.x, y: first.from }, (0, -away), start);
         self.tip(Point { x: last.x, y: last.to }, (0, onward), end);
     }
@@ -214,11 +215,10 @@ impl Svg<'_> {
             Tip::None => {}
             Tip::Arrow => {
                 let outline = [back(0, 0), back(9, 4), back(7, 0), back(9, -4)].join("L");
-                self.add(format_args!("<path class=\"head\" d=\"M{outline}Z\"/>"));
+                self.out.path("head", format_args!("M{outline}Z"));
             }
             Tip::Dot => {
-                let (x, y) = (at.x - right * 3, at.y - down * 3);
-                self.add(format_args!("<circle class=\"head\" cx=\"{x}\" cy=\"{y}\" r=\"3\"/>"));
+                self.out.circle("head", [at.x - right * 3, at.y - down * 3], 3);
             }
         }
     }
@@ -228,13 +228,11 @@ impl Svg<'_> {
         let Point { x, y } = scene.layout.nodes[node];
         let side = x + half_width(scene, node);
         let (near, far) = (side + 7, side + LOOP);
-        self.add(format_args!(
-            "<path class=\"line\" d=\"M{side} {}H{near}C{far} {} {far} {} {near} {}\"/>",
-            y - 9,
-            y - 9,
-            y + 9,
-            y + 9,
-        ));
+        let (top, bottom) = (y - 9, y + 9);
+        self.out.path(
+            "line",
+            format_args!("M{side} {top}H{near}C{far} {top} {far} {bottom} {near} {bottom}"),
+        );
         self.tip(Point { x: side, y: y + 9 }, (-1, 0), Tip::Arrow);
         let label = &scene.signs[node].to_itself;
         self.block(label, Point { x: side + LOOP, y: y - label.height / 2 }, "begin");
@@ -252,38 +250,32 @@ impl Svg<'_> {
         };
         let hot = if sign.is_hot { " hot" } else { "" };
         let prefix = self.prefix;
-        self.add(format_args!("<g id=\"{prefix}{id}-{index}\" class=\"{class}{hot}\">"));
+        self.out.add(format_args!("<g id=\"{prefix}{id}-{index}\" class=\"{class}{hot}\">"));
         let beside = Point { x: x + half + SPACE, y: y - sign.text.height / 2 };
         match node.kind {
             Kind::State(place) => {
-                self.title(&place_title(&net.places[place], sign.tokens));
+                self.out.title(&place_title(&net.places[place], sign.tokens));
                 let Outline::Rectangle(_, high) = scene.graph.nodes[at].outline else { return };
                 self.rectangle(Point { x, y }, half, high, 9);
-                let name = markup(&text::short(node.name));
-                self.add(format_args!(
-                    "<text class=\"name middle\" x=\"{x}\" y=\"{}\">{name}</text>",
-                    y + NAME / 3
-                ));
+                self.out.text("name middle", [x, y + NAME / 3], &text::short(node.name));
                 self.arrivals(net, scene, at);
             }
             Kind::Place { place, .. } => {
-                self.title(&place_title(&net.places[place], sign.tokens));
-                self.add(format_args!(
-                    "<circle class=\"rim\" cx=\"{x}\" cy=\"{y}\" r=\"{half}\"/>"
-                ));
+                self.out.title(&place_title(&net.places[place], sign.tokens));
+                self.out.circle("rim", [x, y], half);
                 self.tokens(sign.tokens, Point { x, y });
                 self.block(&sign.text, beside, "begin");
             }
             Kind::Transition(_) => {
                 let labels: Vec<Label<'_>> =
                     node.label.iter().chain(node.also.iter().map(|it| &it.1)).cloned().collect();
-                self.title(&labels_title(net, &labels));
+                self.out.title(&labels_title(net, &labels));
                 let Outline::Rectangle(_, high) = scene.graph.nodes[at].outline else { return };
                 self.rectangle(Point { x, y }, half, high, 1);
                 self.block(&sign.text, beside, "begin");
             }
         }
-        self.text.push_str("</g>\n");
+        self.out.push_str("</g>\n");
     }
 
     /// Draws the arrivals at a state that are no edges: the start of the net, and lines from many
@@ -295,10 +287,7 @@ impl Svg<'_> {
         if sign.is_initial {
             let (length, radius) = INITIAL;
             let (top, from) = (y - high, y - high - length);
-            self.add(format_args!(
-                "<circle class=\"start\" cx=\"{x}\" cy=\"{}\" r=\"{radius}\"/>",
-                from - radius
-            ));
+            self.out.circle("start", [x, from - radius], radius);
             self.line(&[Run { x, from, to: top }], Tip::None, Tip::Arrow);
         }
         if !sign.entries.lines.is_empty() {
@@ -306,28 +295,22 @@ impl Svg<'_> {
             let (from, to) = (x - wide - ENTRY, x - wide);
             let labels: Vec<Label<'_>> =
                 node.entries.iter().map(|entry| entry.label.clone()).collect();
-            self.add(format_args!("<g class=\"entry{hot}\">"));
-            self.title(&labels_title(net, &labels));
-            self.add(format_args!(
-                "<path class=\"line\" d=\"M{from} {y}H{}\"/>",
-                to - Tip::Arrow.length()
-            ));
+            self.out.add(format_args!("<g class=\"entry{hot}\">"));
+            self.out.title(&labels_title(net, &labels));
+            self.out.path("line", format_args!("M{from} {y}H{}", to - Tip::Arrow.length()));
             self.tip(Point { x: to, y }, (1, 0), Tip::Arrow);
             self.block(
                 &sign.entries,
                 Point { x: from - SPACE, y: y - sign.entries.height / 2 },
                 "end",
             );
-            self.text.push_str("</g>");
+            self.out.push_str("</g>");
         }
     }
 
     fn rectangle(&mut self, centre: Point, wide: i64, high: i64, radius: i64) {
-        let (x, y) = (centre.x - wide, centre.y - high);
-        let (width, height) = (2 * wide, 2 * high);
-        self.add(format_args!(
-            "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" rx=\"{radius}\"/>"
-        ));
+        let corner = [centre.x - wide, centre.y - high];
+        self.out.rounded("", corner, [2 * wide, 2 * high], radius);
     }
 
     /// Tokens as dots, from five on as a number.
@@ -343,7 +326,7 @@ impl Svg<'_> {
                 let size = if more < 10_000 { NAME - 2 } else { 5 };
                 let style = format!("font-size:{size}px");
                 let base = y + size / 3;
-                return self.add(format_args!(
+                return self.out.add(format_args!(
                     "<text class=\"count middle\" style=\"{style}\" x=\"{x}\" y=\"{base}\">{more}\
                      </text>"
                 ));
@@ -351,42 +334,35 @@ impl Svg<'_> {
         };
         let radius = if tokens == 1 { 5 } else { 4 };
         for (right, down) in dots {
-            let (x, y) = (x + right, y + down);
-            self.add(format_args!(
-                "<circle class=\"token\" cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>"
-            ));
+            self.out.circle("token", [x + right, y + down], radius);
         }
     }
 
     fn block(&mut self, block: &Block, top: Point, anchor: &str) {
         for line in &block.lines {
-            let hot = if line.hot { " hot" } else { "" };
-            self.add(format_args!(
-                "<text class=\"{anchor}{hot}\" x=\"{}\" y=\"{}\">",
-                top.x,
-                top.y + line.base
-            ));
+            let mut said = String::new();
             for span in &line.spans {
+                let text = markup(&span.text);
                 let class = match span.face {
                     Face::Plain => {
-                        self.text.push_str(&markup(&span.text));
+                        said += &text;
                         continue;
                     }
                     Face::Strong => "strong",
                     Face::Quiet => "quiet",
                     Face::Sources => "sources",
                 };
-                self.add(format_args!("<tspan class=\"{class}\">{}</tspan>", markup(&span.text)));
+                put(&mut said, format_args!("<tspan class=\"{class}\">{text}</tspan>"));
             }
-            self.text.push_str("</text>");
+            let class = if line.hot { &format!("{anchor} hot") } else { anchor };
+            self.out.rich_text(class, [top.x, top.y + line.base], &said);
         }
     }
+}
 
-    fn title(&mut self, title: &str) {
-        if !title.is_empty() {
-            self.add(format_args!("<title>{}</title>", markup(title)));
-        }
-    }
+fn put(out: &mut String, text: std::fmt::Arguments<'_>) {
+    // Writing into a string cannot fail.
+    let _ = out.write_fmt(text);
 }
 
 /// How a line ends.

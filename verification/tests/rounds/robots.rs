@@ -129,7 +129,7 @@ impl Drawn {
             all.push(below(many));
             all.sort_unstable();
             all.dedup();
-            for _ in 0..1 + below(3) {
+            for _ in 0..=below(3) {
                 configurations.push((sub_objective, all.clone()));
                 // What others need is needed still: the last module is needed by none.
                 if all.len() < 2 || all.pop().is_none() {

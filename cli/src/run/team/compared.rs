@@ -6,8 +6,8 @@ use crate::exit::{Exit, Failure};
 use crate::names::quoted;
 use crate::output::Screen;
 use crate::render;
+use cotama_campaign::methods::{Results, Spread, compare};
 use cotama_models::team::scenario::{Method, Scenario};
-use cotama_sim::fleet::campaign::{Results, Spread, compare};
 use std::thread;
 
 /// Many seeds, with each allocation.

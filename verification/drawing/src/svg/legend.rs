@@ -3,6 +3,7 @@
 use super::scene::{SPACE, Scene};
 use super::text::{LABEL, bold_width, width};
 use super::{Highlight, Svg, Tip};
+use crate::elements::Elements;
 use crate::figure::{Figure, Flow};
 use crate::layout::Point;
 use cotama_core::net::Net;
@@ -29,37 +30,34 @@ pub(crate) fn write_figure(
     let widest = legend.iter().map(wide).max().unwrap_or(0) + 3 * SPACE + KEY / 2;
     scene.layout.width = scene.layout.width.max(widest);
     scene.layout.height += i64::try_from(legend.len()).unwrap_or(0) * KEY_LINE + SPACE;
-    let mut out = Svg { text: String::new(), prefix: "" };
+    let mut out = Svg { out: Elements::default(), prefix: "" };
     out.head(&scene, kind);
     out.body(net, &scene, &highlight);
     out.legend(legend, top);
-    out.text.push_str("</svg>\n");
-    out.text
+    out.out.push_str("</svg>\n");
+    out.out.into_string()
 }
 
 impl Svg<'_> {
     /// Lines as they are drawn, each with its word and what it means.
     fn legend(&mut self, legend: &[Key], top: i64) {
-        self.text.push_str("<g class=\"legend\">\n");
+        self.out.push_str("<g class=\"legend\">\n");
         for (&(flow, word, meaning), y) in legend.iter().zip((0..).map(|at| top + at * KEY_LINE)) {
             let (class, tip) = match flow {
                 Flow::Read => ("edge read", Tip::Dot),
                 Flow::Move | Flow::Borrow => ("edge", Tip::Arrow),
             };
             let (left, right) = (KEY / 2, KEY / 2 + KEY);
-            self.add(format_args!(
-                "<g class=\"{class}\"><path class=\"line\" d=\"M{left} {y}H{}\"/>",
-                right - tip.length()
-            ));
+            self.out.add(format_args!("<g class=\"{class}\">"));
+            self.out.path("line", format_args!("M{left} {y}H{}", right - tip.length()));
             self.tip(Point { x: right, y }, (1, 0), tip);
-            self.add(format_args!(
-                "<text x=\"{}\" y=\"{}\"><tspan class=\"strong\">{word}</tspan> <tspan \
-                 class=\"quiet\">{}</tspan></text></g>\n",
-                right + SPACE,
-                y + 4,
+            let said = format!(
+                "<tspan class=\"strong\">{word}</tspan> <tspan class=\"quiet\">{}</tspan>",
                 markup(meaning)
-            ));
+            );
+            self.out.rich_text("", [right + SPACE, y + 4], &said);
+            self.out.push_str("</g>\n");
         }
-        self.text.push_str("</g>\n");
+        self.out.push_str("</g>\n");
     }
 }

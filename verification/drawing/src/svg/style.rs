@@ -2,12 +2,9 @@
 
 /// The style sheet of drawings. Colours are said twice: first for programs that do not know custom
 /// properties.
-pub const STYLE: &str = "\
-.cotama{--paper:#fff;--ink:#1b1f24;--quiet:#57606a;--line:#4b5561;--fill:#eef3f9;--hot:#c2410c;\
---glow:#ffedd5;\
-color-scheme:light dark;font-family:Helvetica,Arial,'Liberation Sans',system-ui,sans-serif}
-@media screen and (prefers-color-scheme:dark){.cotama{--paper:#14181d;--ink:#e6eaef;\
---quiet:#a0abb7;--line:#8b96a3;--fill:#222b36;--hot:#fb923c;--glow:#4a2712}}
+pub const STYLE: &str = concat!(
+    crate::palette!(".cotama"),
+    "\
 .cotama .paper{fill:#fff;fill:var(--paper)}
 .cotama text{fill:#1b1f24;fill:var(--ink);font-size:11px}
 .cotama .name{font-size:13px}
@@ -31,4 +28,5 @@ stroke-width:1.3}
 {fill:#c2410c;fill:var(--hot)}
 .cotama .state.hot rect,.cotama .place.hot circle.rim\
 {fill:#ffedd5;fill:var(--glow);stroke:#c2410c;stroke:var(--hot);stroke-width:2}
-";
+"
+);

@@ -1,0 +1,234 @@
+//! Observations of one run.
+
+use cotama_models::cotama::{Diagnosis, FailureMode, local};
+use cotama_models::missions::faults::Moment;
+use cotama_sim::body::{Motion, effect};
+use cotama_sim::fleet::{self, record::Fate};
+use cotama_sim::run::Outcome;
+use cotama_sim::streams::fnv1a;
+use cotama_sim::supervised::{self, Monitor};
+use serde::{Deserialize, Serialize};
+
+/// The observations of one run. A [`Line`](crate::run::Line) of the results holds the serialised
+/// ones.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_campaign::{plan::Plan, subject::{Policy, Subject}};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let run = Subject::new(&mission, Policy::default()).unwrap().run(&Plan::default());
+/// assert_eq!((run.outcome.name(), run.requests, run.exposed_ms), ("completed", 0, 0));
+/// assert!(run.fired.contains(&"ls.l3".to_owned()));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Observed {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// The time used, in ms, rounded half up.
+    pub time_ms: u64,
+    /// The energy used, in mJ, rounded half up.
+    pub energy_mj: u64,
+    /// How far the robot came, in mm.
+    pub x_mm: u64,
+    /// How often the operator was asked.
+    pub requests: u64,
+    /// How many plans there were after the first.
+    pub replans: u64,
+    /// The longest time in ms that the robot moved without a module that it required.
+    pub exposed_ms: u64,
+    /// The longest way in mm that it went on after the permit to move was gone.
+    #[serde(skip)]
+    pub braked_mm: u64,
+    /// Whether it moved after it was safe.
+    #[serde(skip)]
+    pub moved_when_safe: bool,
+    /// The longest time in ms that an observer at work left a failure unseen beyond its latency.
+    #[serde(skip)]
+    pub unseen_ms: u64,
+    /// Whether a plan was made with modules that were known to be lost.
+    #[serde(skip)]
+    pub planned_with_lost: bool,
+    /// Whether a motor ran away, so that it could not brake as it was told.
+    #[serde(skip)]
+    pub ran_away: bool,
+    /// Failures and the state of the local supervisor then: rows of the FMECA by state.
+    #[serde(skip)]
+    pub met: Vec<(FailureMode, local::State)>,
+    /// Features that the run came through: hashes of transitions, of diagnoses, of decisions, of
+    /// plans; each once, sorted.
+    #[serde(skip)]
+    pub features: Vec<u64>,
+    /// The supervisors' transitions that fired, as `ls.l5`, each once, sorted.
+    #[serde(skip)]
+    pub fired: Vec<String>,
+    /// The requirement that was broken while the run went on, which ended it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub witness: Option<Witness>,
+}
+
+/// The requirement that supervisors of the caller's do what those that are shipped do.
+pub(super) const CONFORMS: &str = "conforms";
+
+/// A broken requirement, seen while a run went on.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_campaign::{plan::Plan, subject::{Policy, Subject}};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let subject = Subject::new(&mission, Policy::default()).unwrap();
+/// let subject = subject.watching(&["AG !ls.End".parse().unwrap()]).unwrap();
+/// let witness = subject.run(&Plan::default()).witness.unwrap();
+/// assert!(witness.seen.contains(&"ls.l3".to_owned()), "{witness:?}");
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Witness {
+    /// The requirement, as a text.
+    pub requirement: String,
+    /// When, in ms.
+    pub at_ms: u64,
+    /// The last actions of the supervisors, in one round, as `ls.l5`; or the place in which they
+    /// departed from the shipped ones.
+    pub seen: Vec<String>,
+}
+
+impl Observed {
+    /// Returns the observations of a run that never began.
+    pub(super) const fn nothing() -> Self {
+        Self {
+            outcome: Outcome::Failed,
+            time_ms: 0,
+            energy_mj: 0,
+            x_mm: 0,
+            requests: 0,
+            replans: 0,
+            exposed_ms: 0,
+            braked_mm: 0,
+            moved_when_safe: false,
+            unseen_ms: 0,
+            planned_with_lost: false,
+            ran_away: false,
+            met: Vec::new(),
+            features: Vec::new(),
+            fired: Vec::new(),
+            witness: None,
+        }
+    }
+
+    /// Returns the observations of a team's run.
+    pub(super) fn of_team(run: &fleet::record::Run) -> Self {
+        let reported = run.count(Fate::Reported) as u64;
+        let outcome = match (run.is_sound(), reported) {
+            (false, _) => Outcome::Failed,
+            (true, 0) => Outcome::Completed,
+            (true, _) => Outcome::Safe,
+        };
+        let rounds = u64::from(run.rounds).ilog2_or_zero();
+        let mut features = vec![
+            feature("outcome", &[outcome as u64]),
+            feature("reported", &[reported.ilog2_or_zero()]),
+            feature("reopened", &[u64::from(run.reopened).ilog2_or_zero()]),
+            feature("rounds", &[rounds, run.out as u64]),
+        ];
+        features.sort_unstable();
+        Self {
+            outcome,
+            time_ms: run.end_ms,
+            energy_mj: run.energy_mj,
+            replans: u64::from(run.reopened),
+            features,
+            ..Self::nothing()
+        }
+    }
+
+    /// Returns the observations of a run under supervisors that were watched by these monitors.
+    pub fn of(run: &supervised::Run, monitors: &[Monitor]) -> Self {
+        let mut features = vec![feature("outcome", &[run.outcome as u64])];
+        let mut fired: Vec<(&str, &str)> =
+            run.fired.iter().map(|it| (it.net, it.transition.as_str())).collect();
+        // Which transition of a net follows which.
+        for net in ["gs", "ls", "cs", "pf", "to"] {
+            let mut before = 0;
+            for it in run.fired.iter().filter(|it| it.net == net) {
+                let this = fnv1a(it.transition.as_bytes());
+                features.push(feature(net, &[before, this]));
+                before = this;
+            }
+        }
+        fired.sort_unstable();
+        fired.dedup();
+        for it in &run.conduct {
+            let found = match it.detected {
+                None => 0,
+                Some((_, Diagnosis::None)) => 1,
+                Some((_, Diagnosis::Unexplained)) => 2,
+                Some((_, Diagnosis::Ambiguous(_))) => 3,
+                Some((_, Diagnosis::Unique(mode))) => 4 + u64::from(mode != it.mode),
+            };
+            let decided = it.decided.map_or(9, |it| it.1 as u64);
+            features.push(feature("failure", &[it.mode as u64, it.during as u64]));
+            features.push(feature("found", &[it.mode as u64, found, decided]));
+            features.push(feature("exposed", &[it.mode as u64, it.exposed.0.ilog2_or_zero()]));
+        }
+        features.sort_unstable();
+        features.dedup();
+        let runs_away = |it: &supervised::Conduct| effect(it.mode).motion == Motion::Runaway;
+        Self {
+            outcome: run.outcome,
+            time_ms: run.used[0],
+            energy_mj: run.used[1],
+            x_mm: run.x.0,
+            requests: run.operator_requests,
+            replans: run.plans.len().saturating_sub(1) as u64,
+            exposed_ms: run.exposed.0,
+            braked_mm: run.braked.0,
+            moved_when_safe: run.moved_when_safe,
+            unseen_ms: run.unseen.0,
+            planned_with_lost: run.planned_with_lost,
+            ran_away: run.conduct.iter().any(runs_away),
+            met: run.conduct.iter().map(|it| (it.mode, it.during)).collect(),
+            features,
+            fired: fired.into_iter().map(|(net, it)| format!("{net}.{it}")).collect(),
+            witness: Witness::of(run, monitors),
+        }
+    }
+}
+
+impl Witness {
+    fn of(run: &supervised::Run, monitors: &[Monitor]) -> Option<Self> {
+        if let Some(it) = &run.violated {
+            let requirement = monitors.get(it.monitor).map_or("", Monitor::text).to_owned();
+            return Some(Self { requirement, at_ms: it.at.0, seen: it.fired.clone() });
+        }
+        let (at, place) = run.departed.as_ref()?;
+        Some(Self { requirement: CONFORMS.to_owned(), at_ms: at.0, seen: vec![place.clone()] })
+    }
+}
+
+/// The name of a state in results: that of the net.
+pub fn state_name(state: local::State) -> &'static str {
+    match state {
+        local::State::Idle => "Idle",
+        local::State::End => "End",
+        other => Moment::state_name(other).unwrap_or("Idle"),
+    }
+}
+
+pub(super) fn feature(kind: &str, numbers: &[u64]) -> u64 {
+    numbers.iter().fold(fnv1a(kind.as_bytes()), |hash, it| {
+        (hash ^ it.wrapping_mul(0x9e37_79b9_7f4a_7c15))
+            .rotate_left(23)
+            .wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+trait Log {
+    fn ilog2_or_zero(self) -> u64;
+}
+
+impl Log for u64 {
+    fn ilog2_or_zero(self) -> u64 {
+        self.checked_ilog2().map_or(0, |it| u64::from(it) + 1)
+    }
+}
