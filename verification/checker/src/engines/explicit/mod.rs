@@ -13,6 +13,15 @@
 //! [`Limits`]; that too is an answer. Answers are the same on any number of threads, but for limits
 //! of memory and time.
 //!
+//! One level of the search on several threads:
+//!
+//! | from | in | what happens |
+//! | --- | --- | --- |
+//! | blocks of the level | `worker` | a thread takes its own first, then those of others |
+//! | boxes | `boxes` | successors, sorted by table; a full box is emptied at once |
+//! | tables | `table` | first the thread's share of them, from all boxes; then others' |
+//! | blocks | `block` | new markings: the next level |
+//!
 //! ```
 //! use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 //! use cotama_verification::explicit::{Limits, statespace};
