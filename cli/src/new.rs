@@ -1,4 +1,5 @@
-//! `cotama new`: a mission file, a robot, an FMECA, or a crate with a net or a system, that works as it is.
+//! `cotama new`: a mission file, a robot, an FMECA, or a crate with a net or a system, that works
+//! as it is.
 //!
 //! The texts are the files in `templates/`, in which the name stands for the one that is wanted.
 

@@ -8,8 +8,8 @@ use crate::team::Chosen;
 use cotama_core::text;
 use cotama_models::robots;
 
-/// Prints the file of a mission, a team or a robot; what a terminal would obey in its strings and comments
-/// is escaped.
+/// Prints the file of a mission, a team or a robot; what a terminal would obey in its strings and
+/// comments is escaped.
 pub(crate) fn show(args: &MissionArg) -> Result<Exit, Failure> {
     let robot = robots::embedded(&args.mission).map(|it| it.text.to_owned());
     let text = match (robot, Chosen::of(&args.mission)?) {

@@ -3,10 +3,10 @@
 use super::{Mode, Robot};
 use crate::cotama::Severity;
 
-/// Where the robot is when a report comes.
+/// Place of the robot when a report comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Where {
-    /// There is no drive.
+    /// No drive.
     Rests,
     /// The robot stands and waits for the operator, or for its end.
     Waits,
@@ -19,10 +19,10 @@ pub enum Where {
     },
 }
 
-/// Where the robot is, and what it has lost.
+/// Place of the robot, and its losses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Situation {
-    /// Where it is.
+    /// Place of the robot.
     pub at: Where,
     /// The losses that are known, a bit each; with or without that of the report.
     pub lost: u32,

@@ -1,4 +1,4 @@
-//! What failures are told as: reports, and the losses that make a difference.
+//! Reports of failures, and the losses that make a difference.
 
 use super::{Failure, MAX_LOSSES, MAX_REPORTS, Mode, Parts, Restarts, Robot, members};
 use crate::cotama::Severity;
@@ -13,7 +13,7 @@ pub struct Loss {
     pub modules: u64,
 }
 
-/// What the decisional level is told of a failure. Failures that take the same and are as severe
+/// Report of a failure to the decisional level. Failures that take the same and are as severe
 /// are one report.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Report {
@@ -21,7 +21,7 @@ pub struct Report {
     pub name: String,
     /// Its failures, by number.
     pub failures: Vec<usize>,
-    /// What is lost with it.
+    /// The loss that comes with it.
     pub loss: Option<usize>,
     /// How severe it is where the robot drives itself.
     pub autonomous: Severity,
@@ -38,20 +38,20 @@ pub struct Losses {
     pub losses: Vec<Loss>,
     /// The reports.
     pub reports: Vec<Report>,
-    /// What is left after each set of losses.
+    /// The rest after each set of losses.
     left: Vec<Left>,
 }
 
-/// What there is too much of.
+/// Limit that is exceeded.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum TooMany {
-    /// There are more than [`MAX_LOSSES`] losses.
+    /// More than [`MAX_LOSSES`] losses.
     Losses,
-    /// There are more than [`MAX_REPORTS`] reports.
+    /// More than [`MAX_REPORTS`] reports.
     Reports,
 }
 
-/// What is left after some losses.
+/// Rest after some losses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Left {
     /// The configurations that can run, a bit each.
@@ -116,7 +116,7 @@ impl Losses {
         Ok(Self { losses, reports, left })
     }
 
-    /// What is left after these losses.
+    /// Returns the rest after these losses.
     pub(super) fn after(&self, lost: u32) -> Left {
         debug_assert!((lost as usize) < self.left.len(), "losses of this robot");
         self.left.get(lost as usize).copied().unwrap_or_default()

@@ -92,7 +92,7 @@ pub struct Robot {
     pub name: String,
     /// The robot in a few words; may be empty.
     pub title: String,
-    /// What modules stand on.
+    /// Hardware on which modules stand.
     pub hardware: Vec<Hardware>,
     /// Programs that sense, compute and act.
     pub modules: Vec<Module>,
@@ -106,7 +106,7 @@ pub struct Robot {
     pub observers: Vec<Observer>,
     /// Failures: the rows of the FMECA.
     pub failures: Vec<Failure>,
-    /// What failures are told as, and which losses differ.
+    /// Reports of failures, and the losses that differ.
     pub losses: Losses,
 }
 
@@ -153,7 +153,7 @@ pub struct Module {
     pub source: String,
 }
 
-/// Who decides on the motion of the robot.
+/// Decider of the robot's motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Mode {
     /// The robot.
@@ -167,7 +167,7 @@ pub enum Mode {
 pub struct SubObjective {
     /// Name of the sub-objective.
     pub name: String,
-    /// Who decides on motion in it.
+    /// Decider of motion in it.
     pub mode: Mode,
     /// Whether the robot may move in it: some configuration has a speed.
     pub moves: bool,
@@ -208,12 +208,12 @@ pub struct Observer {
 /// How long a failure lasts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Persistence {
-    /// It stays.
+    /// A failure that stays.
     #[default]
     Permanent,
-    /// It comes and goes.
+    /// A failure that comes and goes.
     Intermittent,
-    /// It passes.
+    /// A failure that passes.
     Transient,
 }
 
@@ -230,7 +230,7 @@ pub struct Failure {
     pub mode: String,
     /// Why; may be empty.
     pub cause: String,
-    /// What follows; may be empty.
+    /// The effect; may be empty.
     pub effect: String,
     /// How severe it is where the robot drives itself.
     pub autonomous: Severity,
@@ -246,7 +246,7 @@ pub struct Failure {
     pub unseen: Option<String>,
     /// How long after it the flags are up.
     pub latency: Millis,
-    /// What is lost with it.
+    /// The parts lost with it.
     pub loses: Parts,
     /// How often a module is started anew before anything counts as lost.
     pub restarts: Option<Restarts>,
@@ -292,8 +292,8 @@ pub(crate) fn members(set: u64) -> impl Iterator<Item = usize> {
 }
 
 impl Robot {
-    /// Returns the modules that can be used when these parts are lost or faulty: none that is faulty
-    /// itself, stands on lost hardware, or needs a module that cannot be used.
+    /// Returns the modules that can be used when these parts are lost or faulty: none that is
+    /// faulty itself, stands on lost hardware, or needs a module that cannot be used.
     pub fn available(&self, lost: Parts) -> u64 {
         let mut available =
             (0..self.modules.len()).fold(0, |all, it| all | 1 << it) & !lost.modules;

@@ -1,4 +1,4 @@
-//! Which configurations a robot comes to run, whatever fails and whatever the operator does.
+//! Configurations that a robot comes to run, whatever fails and whatever the operator does.
 
 use super::{Decision, Mode, Robot, Situation, Where, decide};
 use std::collections::BTreeSet;

@@ -134,7 +134,7 @@ fn at_end(name: &str, begins: &str, ends: &str, most: u32) -> Watch {
 
 type Ask<'a> = dyn FnMut(String, String, Vec<Watch>, String) + 'a;
 
-/// What is fatal ends the mission; what is hard asks the operator, or ends it.
+/// Adds: a fatal report ends the mission; a hard one asks the operator, or ends it.
 fn severe(robot: &Robot, ask: &mut Ask<'_>) {
     let told = |least: Severity| {
         let all = robot.losses.reports.iter().filter(|it| it.restarts.is_none());

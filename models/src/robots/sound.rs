@@ -1,4 +1,4 @@
-//! What is read, but makes no sense.
+//! Checks of a robot that was read: a part that makes no sense is an error.
 
 use super::{Mode, Parts, Robot, members, reached};
 use crate::cotama::Severity;

@@ -1,10 +1,11 @@
-//! Missions, faults, FMECAs, teams, traces, requirements.
+//! Missions, faults, FMECAs, teams, robots, traces, requirements.
 
 use super::checks::{errors, is_place, text};
 use cotama_campaign::requirement::Requirement;
 use cotama_models::fmeca::Analysis;
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, embedded};
+use cotama_models::robots::{self, Robot};
 use cotama_models::team::instance::Instance;
 use cotama_sim::trace::Trace;
 use std::sync::LazyLock;
@@ -32,6 +33,11 @@ super::readers! {
         "null", "[]", "{}", "\"max\"", "\"mean\"", "\"coalition\"", "\"single\"",
         "\"simultaneous\"",
         "\"cost\":", "\"plans\":", "\"skip_cost\":", "\\u0000",
+    ];
+    robots: robots, [
+        "[[configuration]]\n", "[[failure]]\n", "[module.x]\n", "[hardware.x]\n", "[observer.x]\n",
+        "needs = []\n", "one_of = [", "loses = [", "each = [", "\"fatal\"", "\"hard\"",
+        "rank = 0\n", "unseen = \"\"\n", "restart = {}\n", "{}", "[]", "'''",
     ];
     traces: traces, [
         "null", "[]", "{}", "\"kind\":", "\"end\"", "\"t_us\":0", "\n{}", "true", "\\u0000",
@@ -122,6 +128,23 @@ fn teams(bytes: &[u8]) -> bool {
     match Instance::parse("file", &text) {
         Ok(instance) => {
             let _ = instance.solve(1_000);
+            true
+        }
+        Err(found) => {
+            errors(&text, &found);
+            false
+        }
+    }
+}
+
+/// The supervisors of a robot that was read fit together.
+fn robots(bytes: &[u8]) -> bool {
+    let text = text(bytes);
+    match Robot::parse("file", &text) {
+        Ok(robot) => {
+            let system = robots::supervisors::system(&robot);
+            system.with(|it| assert_eq!(it.defect(), None, "{text}"));
+            assert!(!robots::requirements::of(&robot).is_empty());
             true
         }
         Err(found) => {

@@ -12,8 +12,8 @@ pub(super) struct Cube {
 /// Returns cases of the sets of losses that have `given`, out of `all`, and the value of the
 /// function in each: they exclude one another and cover all such sets.
 ///
-/// The case of a loss that makes no difference is not distinguished; the order of the losses is that
-/// of their numbers, so that the same function gives the same cases.
+/// The case of a loss that makes no difference is not distinguished; the order of the losses is
+/// that of their numbers, so that the same function gives the same cases.
 pub(super) fn cubes<T: Copy + PartialEq>(
     all: u32,
     given: u32,

@@ -1,14 +1,14 @@
 //! The supervisors that a robot's file makes, as one system.
 //!
-//! | net | is | from |
-//! | --- | --- | --- |
-//! | `gs` | global supervisor: one drive after another, or security | every robot has the same |
-//! | `ls` | local supervisor: which sub-objective runs, and the operator | sub-objectives, in order |
-//! | one for each sub-objective with several configurations | adapter: which modules run | ranks, required modules, losses |
-//! | `permit` | the permit to move | [`permit`] |
-//! | `gom` | observation: what is known to be lost, restarts | failures |
-//! | `cs` | contextual supervisor | [`decide`](super::decide) |
-//! | `faults`, `operator` | the surroundings, for the checker | failures, sub-objectives |
+//! | net | is made of |
+//! | --- | --- |
+//! | `gs`, global supervisor: one drive after another, or security | nothing: all have the same |
+//! | `ls`, local supervisor: sub-objectives, and the operator | sub-objectives, in their order |
+//! | adapters, named after the sub-objectives that have several configurations | ranks, losses |
+//! | `permit`, the permit to move | nothing: [`permit`] |
+//! | `gom`, observation: known losses, restarts | failures |
+//! | `cs`, contextual supervisor | [`decide`](super::decide) |
+//! | `faults`, `operator`: the surroundings, for the checker | failures, sub-objectives |
 //!
 //! (Durand et al., TAROS 2010, Section V.) Places of configurations and sub-objectives have their
 //! names, with `_` in place of all but letters and digits.

@@ -78,7 +78,7 @@ pub(super) fn global() -> OwnedNet {
     net.done()
 }
 
-/// Where the local supervisor goes when a sub-objective is to start.
+/// Step of the local supervisor when a sub-objective is to start.
 #[derive(Clone, Copy, PartialEq)]
 enum Entry {
     Starts,
@@ -362,7 +362,8 @@ pub(super) fn faults(robot: &Robot) -> OwnedNet {
     net.done()
 }
 
-/// The operator: answers as long as he is reached; gives up, or is silent for too long, at any time.
+/// The operator: answers as long as he is reached; gives up, or is silent for too long, at any
+/// time.
 pub(super) fn operator(robot: &Robot) -> OwnedNet {
     let all = parts(robot, Mode::Operator);
     let mut net = Draft::new("operator", "The operator, whatever he does.");

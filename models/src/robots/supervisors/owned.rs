@@ -16,9 +16,9 @@ pub struct OwnedSystem {
     pub doc: String,
     /// The nets with their names, in the order in which they act in a round.
     pub nets: Vec<(String, OwnedNet)>,
-    /// What outputs are sent to.
+    /// Links from outputs to events.
     pub links: Vec<Link>,
-    /// What shared places are.
+    /// Targets of shared places.
     pub bindings: Vec<Binding>,
     /// Events that empty mailboxes.
     pub clears: Vec<Clear>,
