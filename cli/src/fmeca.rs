@@ -19,6 +19,7 @@ use crate::render;
 use crate::render::style::NAME;
 use clap::ValueEnum;
 use cotama_models::fmeca::Analysis;
+use cotama_models::robots::{self, Robot};
 use cotama_pages::causes;
 use std::path::Path;
 
@@ -30,7 +31,7 @@ pub(crate) fn fmeca(args: &FmecaArgs, screen: &Screen) -> Result<Exit, Failure> 
         (None, Some(output)) => Some(by_name(output)?),
         (None, None) => None,
     };
-    let analysis = args.file.as_deref().map_or_else(|| Ok(Analysis::of_the_robot()), read)?;
+    let analysis = args.file.as_deref().map_or_else(|| Ok(Analysis::of_the_robot()), named)?;
     let function = args.function.as_deref().map(|it| known(&analysis, it)).transpose()?;
     let answer = || rows::answer(&analysis, args.file.is_none());
     let Some(format) = format else {
@@ -66,8 +67,26 @@ fn read(path: &str) -> Result<Analysis, Failure> {
                 .help("give FILE.toml or FILE.csv; `cotama new fmeca NAME` writes one to begin"));
         }
     };
-    let text = kind::text(path, "an FMECA", input::FMECA_BYTES, &[Kind::Fmeca])?;
+    let text = kind::text(path, "an FMECA", input::FMECA_BYTES, &[Kind::Fmeca, Kind::Robot])?;
+    if kind::is_of(&text, Kind::Robot) {
+        return of_robot(path, &Robot::parse(path, &text)?);
+    }
     Ok(parse(path, &text)?)
+}
+
+/// The analysis of a robot that comes with the program, or of a file.
+fn named(name: &str) -> Result<Analysis, Failure> {
+    match robots::embedded(name) {
+        Some(it) => of_robot(name, &Robot::parse(it.name, it.text)?),
+        None => read(name),
+    }
+}
+
+fn of_robot(name: &str, robot: &Robot) -> Result<Analysis, Failure> {
+    Analysis::try_from(robot).map_err(|lacking| {
+        Failure::of(name, lacking.to_string())
+            .help("say how many hours pass between two failures on average, in `[[failure]]`")
+    })
 }
 
 fn shown(args: &FmecaArgs, answer: &FmecaAnswer<'_>, screen: &Screen) -> Result<Exit, Failure> {

@@ -38,6 +38,7 @@ mod plan;
 mod questions;
 mod reference;
 mod replay;
+mod robots;
 mod run;
 mod sarif;
 mod schemas;

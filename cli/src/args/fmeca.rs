@@ -20,11 +20,12 @@ Examples:
   $ cotama fmeca --json
   $ cotama new fmeca gripper && cotama fmeca gripper.toml   # your own
   $ cotama fmeca gripper.toml --diagnosability
+  $ cotama fmeca transport                                  # the failures of a robot's file
   $ cotama fmeca gripper.toml --output gripper.csv && cotama fmeca gripper.csv";
 
 #[derive(Args, Debug)]
 pub(crate) struct FmecaArgs {
-    /// An analysis of your own, in TOML or CSV [default: that of the delivery robot]
+    /// An analysis of your own, in TOML or CSV, or a robot [default: that of the delivery robot]
     #[arg(value_name = "FILE")]
     pub(crate) file: Option<String>,
     /// Writes it in this format [default: by the end of the name of the output]

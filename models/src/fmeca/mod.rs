@@ -36,6 +36,7 @@ mod criticality;
 mod csv;
 mod diagnosis;
 mod groups;
+mod own_robot;
 mod reader;
 mod robot;
 mod set;
@@ -45,6 +46,7 @@ pub use criticality::{Criticality, CriticalityClass, OccurrenceClass, SeverityCl
 pub use csv::COLUMNS;
 pub use diagnosis::{Diagnosability, MAX_PAIRS, Pair, Status};
 pub use groups::{Groups, MAX_GROUPED};
+pub use own_robot::NoRate;
 pub use reader::FORMAT;
 pub(crate) use reader::thousandths;
 pub use set::Set;

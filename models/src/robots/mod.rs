@@ -71,7 +71,7 @@ pub use embedded::{EMBEDDED, EmbeddedRobot, embedded};
 pub use losses::{Loss, Losses, Report};
 pub use reader::FORMAT;
 
-use crate::cotama::Severity;
+use crate::cotama::{Persistence, Severity};
 use cotama_core::units::{Micros, MillimetresPerSecond, Millis};
 
 /// The most kinds of hardware, and the most modules.
@@ -203,18 +203,6 @@ pub struct Observer {
     pub needs: Parts,
     /// The flags that it raises.
     pub flags: Vec<String>,
-}
-
-/// How long a failure lasts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Persistence {
-    /// A failure that stays.
-    #[default]
-    Permanent,
-    /// A failure that comes and goes.
-    Intermittent,
-    /// A failure that passes.
-    Transient,
 }
 
 /// A failure: a row of the FMECA.

@@ -1,12 +1,12 @@
 //! Reading the failures of a robot.
 
 use super::{Names, TIMES, parts, words};
-use crate::cotama::Severity;
+use crate::cotama::{Persistence, Severity};
 use crate::fmeca::thousandths;
 use crate::missions::reader::fields::Fields;
 use crate::missions::{Diagnostic, Spanned};
 use crate::names::quoted;
-use crate::robots::{Failure, Parts, Persistence, Restarts};
+use crate::robots::{Failure, Parts, Restarts};
 use cotama_core::units::Millis;
 
 const SEVERITIES: [&str; 4] = ["weak", "medium", "hard", "fatal"];

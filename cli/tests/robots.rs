@@ -1,0 +1,89 @@
+//! A robot of one's own, from its file: every command that takes it, and those that do not.
+
+use crate::common::Folder;
+use serde_json::json;
+
+/// A folder with the file that `cotama new` writes.
+fn cart(name: &str) -> Folder {
+    let folder = Folder::new(name);
+    let answer = folder.cotama(&["new", "robot", "cart", "--json"]).json(0);
+    assert_eq!(answer["files"], json!(["cart.toml"]));
+    folder
+}
+
+#[test]
+fn a_new_robot_keeps_its_requirements() {
+    let answer = cart("robots_check").cotama(&["check", "cart.toml", "--json"]).json(0);
+    let results = answer["results"].as_array().unwrap();
+    assert_eq!((results.len(), &answer["semantics"]), (14, &json!("rounds")));
+    assert!(results.iter().all(|it| it["verdict"] == "true"), "{results:?}");
+    let blind = results.iter().find(|it| it["id"] == "AS4.Blind").unwrap();
+    let sentence = "`Blind` runs at the ends of two rounds at most without what it needs.";
+    assert_eq!(blind["sentence"], sentence);
+}
+
+#[test]
+fn a_changed_robot_shows_how_it_breaks_a_property() {
+    let folder = cart("robots_changed");
+    let asked = ["check", "cart.toml", "--property", "AG !Follow.Blind", "--json"];
+    let answer = folder.cotama(&asked).json(1);
+    let trace = answer["results"][0]["trace"].as_array().unwrap();
+    let names: Vec<_> = trace.iter().filter_map(|it| it["transition"].as_str()).collect();
+    // The scanner is started anew twice before it counts as lost.
+    assert_eq!(names.iter().filter(|it| it.contains("gom.LID1_restarts")).count(), 2, "{names:?}");
+}
+
+#[test]
+fn all_that_takes_a_model_takes_a_robot() {
+    let folder = cart("robots_models");
+    let states = folder.cotama(&["statespace", "cart.toml", "--json"]).json(0);
+    assert_eq!((&states["states"], &states["rounds"]["states"]), (&json!("2194"), &json!("708")));
+    let models = folder.cotama(&["models", "cart.toml", "--json"]).json(0);
+    assert_eq!(models["models"][0]["components"].as_array().unwrap().len(), 8);
+    let svg = folder.cotama(&["export", "cart.toml", "--format", "svg"]).stdout;
+    assert!(svg.starts_with("<svg") && svg.contains("contextual"));
+    let played = folder.cotama(&["simulate", "cart.toml", "gs.drive_wanted"]);
+    assert_eq!(played.code, Some(0), "{}", played.stderr);
+    let listed = folder.cotama(&["list", "--json"]).json(0);
+    assert_eq!(listed["robots"][1]["name"], "transport");
+    let shown = folder.cotama(&["show", "transport"]).stdout;
+    folder.write("again.toml", shown);
+    let again = folder.cotama(&["models", "again.toml", "--json"]).json(0);
+    assert_eq!(
+        again["models"],
+        folder.cotama(&["models", "transport", "--json"]).json(0)["models"]
+    );
+}
+
+#[test]
+fn the_failures_of_a_robot_are_analysed_if_their_rates_are_said() {
+    let folder = cart("robots_fmeca");
+    let answer = folder.cotama(&["fmeca", "cart.toml", "--json"]).json(0);
+    let rows = answer["rows"].as_array().unwrap();
+    let reactions: Vec<_> = rows.iter().map(|it| it["reaction"].as_str().unwrap()).collect();
+    assert_eq!(
+        reactions,
+        [
+            "start scan anew 2 times; then another configuration",
+            "end the mission",
+            "stop, ask the operator",
+            "record"
+        ]
+    );
+    let text = folder.read("cart.toml").replace("mean_hours = 20\n", "");
+    folder.write("silent.toml", text);
+    let refused = folder.cotama(&["fmeca", "silent.toml"]);
+    assert_eq!(refused.code, Some(2));
+    assert!(refused.stderr.contains("silent.toml: no `mean_hours` in STK1"), "{}", refused.stderr);
+}
+
+#[test]
+fn commands_of_missions_say_that_a_robot_is_none() {
+    let folder = cart("robots_missions");
+    for command in ["plan", "run", "campaign", "table"] {
+        let refused = folder.cotama(&[command, "cart.toml"]);
+        assert_eq!(refused.code, Some(2), "{command}");
+        let (is, next) = ("this is a robot", "try `cotama check cart.toml`");
+        assert!(refused.stderr.contains(is) && refused.stderr.contains(next), "{}", refused.stderr);
+    }
+}

@@ -1,0 +1,129 @@
+//! The analysis of a robot from its file.
+
+use super::analysis::{Analysis, Flag, Mode};
+use super::set::Set;
+use crate::cotama::{Label, Severity};
+use crate::robots::{self, Configuration, Failure, Parts, Robot, members};
+
+/// A working day, as for the delivery robot (assumed).
+const PERIOD_H: u32 = 8;
+
+/// Failures of a robot without `mean_hours`, by their short names: nothing can be said of their
+/// criticality.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NoRate(pub Vec<String>);
+
+impl std::fmt::Display for NoRate {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "no `mean_hours` in {}", self.0.join(", "))
+    }
+}
+
+impl std::error::Error for NoRate {}
+
+impl TryFrom<&Robot> for Analysis {
+    type Error = NoRate;
+
+    /// The rows of a robot: what its file leaves out is said to be so.
+    ///
+    /// ```
+    /// use cotama_models::fmeca::Analysis;
+    /// use cotama_models::robots::Robot;
+    /// let robot = Robot::shipped("transport").unwrap();
+    /// let analysis = Analysis::try_from(&robot).unwrap();
+    /// let lidar = &analysis.modes()[0];
+    /// assert_eq!((lidar.lost.as_str(), lidar.event.as_str()), ("lidar", "adapter"));
+    /// assert_eq!(lidar.reaction, "start scan anew once; then another configuration");
+    /// ```
+    fn try_from(robot: &Robot) -> Result<Self, NoRate> {
+        let lacking = robot.failures.iter().filter(|it| it.mean_mh.is_none());
+        let lacking: Vec<_> = lacking.map(|it| it.id.clone()).collect();
+        if !lacking.is_empty() {
+            return Err(NoRate(lacking));
+        }
+        let flags = robot.flags().map(|(observer, name)| Flag {
+            name: name.to_owned(),
+            doc: String::new(),
+            observer: robot.observers.get(observer).map_or_else(String::new, |it| it.name.clone()),
+        });
+        let title = if robot.title.is_empty() { &robot.name } else { &robot.title };
+        Ok(Self {
+            title: title.clone(),
+            period_h: PERIOD_H,
+            flags: flags.collect(),
+            probes: Vec::new(),
+            modes: robot.failures.iter().map(|it| mode(robot, it)).collect(),
+        })
+    }
+}
+
+fn mode(robot: &Robot, it: &Failure) -> Mode {
+    let said = |text: &str, or: &str| if text.is_empty() { or.to_owned() } else { text.to_owned() };
+    let count = robot.flags().count();
+    let lost = names(robot, it.loses);
+    let component = if it.item.is_empty() { said(&lost, "the robot") } else { it.item.clone() };
+    Mode {
+        id: it.id.clone(),
+        function: said(&it.function, "do the mission"),
+        component,
+        failure: it.mode.clone(),
+        cause: said(&it.cause, "not said"),
+        effect: said(&it.effect, "not said"),
+        severity: it.autonomous,
+        severity_operator: Some(it.operator),
+        persistence: Some(it.persistence),
+        lost: said(&lost, "-"),
+        observer: observers(robot, it),
+        detection: String::new(),
+        latency_ms: u32::try_from(it.latency.0).unwrap_or(u32::MAX),
+        flags: Set::of(count, it.flags.iter().copied()),
+        sometimes: Set::of(count, it.sometimes.iter().copied()),
+        silent: it.unseen.clone(),
+        detection_rank: None,
+        event: it.autonomous.class().name().to_owned(),
+        reaction: reaction(robot, it),
+        mtbf_mh: it.mean_mh.unwrap_or(1),
+        alpha_permille: None,
+        beta_permille: None,
+        rate_label: Label::Assumed,
+        rate_source: said(&it.source, "not said"),
+        injection: String::new(),
+    }
+}
+
+fn names(robot: &Robot, parts: Parts) -> String {
+    let hardware = members(parts.hardware).filter_map(|it| robot.hardware.get(it));
+    let modules = members(parts.modules).filter_map(|it| robot.modules.get(it));
+    let names = hardware.map(|it| it.name.as_str()).chain(modules.map(|it| it.name.as_str()));
+    names.collect::<Vec<_>>().join(" ")
+}
+
+fn observers(robot: &Robot, of: &Failure) -> String {
+    let raised = robot.flags().enumerate().filter(|it| of.flags.contains(&it.0));
+    let mut all: Vec<_> = raised.map(|it| it.1.0).collect();
+    all.dedup();
+    let names = all.into_iter().filter_map(|it| robot.observers.get(it));
+    names.map(|it| it.name.as_str()).collect::<Vec<_>>().join("; ")
+}
+
+/// The reaction in words, where the robot drives itself.
+fn reaction(robot: &Robot, it: &Failure) -> String {
+    let left = robot.available(it.loses);
+    let takes = |it: &Configuration| {
+        let of = robot.sub_objectives.get(it.sub_objective);
+        it.required & !left != 0 && of.is_some_and(|it| it.mode == robots::Mode::Autonomous)
+    };
+    let then = match it.autonomous {
+        Severity::Weak | Severity::Medium if !robot.configurations.iter().any(takes) => "record",
+        Severity::Weak | Severity::Medium => "another configuration",
+        Severity::Hard => "stop, ask the operator",
+        Severity::Fatal => "end the mission",
+    };
+    let Some(restarts) = it.restarts else { return then.to_owned() };
+    let module = robot.modules.get(restarts.module).map_or("", |it| it.name.as_str());
+    let times = match restarts.times {
+        1 => "once".to_owned(),
+        times => format!("{times} times"),
+    };
+    format!("start {module} anew {times}; then {then}")
+}
