@@ -17,12 +17,14 @@ use crate::catalogue::{self, Kind};
 use crate::exit::{Exit, Failure};
 use crate::file_schemas;
 use crate::mission;
+use crate::model;
 use crate::output::Screen;
 use crate::team::Team;
 use clap::CommandFactory;
 use clap::builder::PossibleValuesParser;
 use clap_complete::Shell;
 use cotama_models::missions::embedded;
+use cotama_models::robots;
 use cotama_verification::conform::LINE_SCHEMA;
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
@@ -30,8 +32,12 @@ use schemars::transform::RecursiveTransform;
 use serde::Serialize;
 use serde_json::Value;
 
-/// `cotama table`: the tables of a mission as Rust source.
+/// `cotama table`: the tables of a mission, or the supervisors of a robot, as Rust source.
 pub(crate) fn table(args: &MissionArg) -> Result<Exit, Failure> {
+    if let Some(robot) = model::robot(&args.mission)? {
+        Screen::raw(robots::supervisors::system(&robot).to_rust().as_bytes())?;
+        return Ok(Exit::Success);
+    }
     let mission = mission::load(&args.mission)?;
     Screen::raw(mission.scenario().to_rust(&mission.name).as_bytes())?;
     Ok(Exit::Success)

@@ -221,17 +221,18 @@ Examples:
     /// What is written works as it is, and says what each part is for. Nothing is replaced.
     #[command(after_long_help = new::NEW_EXAMPLES)]
     New(NewArgs),
-    /// Prints the file of a mission that comes with the program
+    /// Prints the file of a mission, a team or a robot that comes with the program
     #[command(after_long_help = "\
 Examples:
   $ cotama show patrol
   $ cotama show patrol > mine.toml && cotama plan mine.toml")]
     Show(MissionArg),
-    /// Prints the tables of a mission as Rust source, for firmware
+    /// Prints the tables of a mission, or the supervisors of a robot, as Rust source for firmware
     #[command(after_long_help = "\
 Examples:
   $ cotama table patrol > patrol_tables.rs
-  $ cotama table patrol | head -1")]
+  $ cotama table patrol | head -1
+  $ cotama table transport > supervisors.rs   # as `net!` and `system!`")]
     Table(MissionArg),
     /// Prints the JSON schema of a command's answer, or of a file that you write
     ///

@@ -141,8 +141,8 @@ pub(crate) fn find(name: &str) -> Result<Found, Failure> {
     if let Some(team) = Team::named(name) {
         return protocol(name, &Chosen::Known(team).scenario());
     }
-    if let Some(it) = robots::embedded(name) {
-        return Ok(Found::from(&Robot::parse(it.name, it.text)?));
+    if let Some(robot) = robot(name)? {
+        return Ok(Found::from(&robot));
     }
     let (family, number) =
         name.split_once(':').map_or((name, None), |(family, it)| (family, Some(it)));
@@ -210,6 +210,18 @@ fn file(path: &str) -> Result<Found, Failure> {
         _ if is_markup(&bytes) => imported(path, &bytes),
         _ => Err(unlike(path, bytes)),
     }
+}
+
+/// The robot of a name, or of a file that begins as one.
+pub(crate) fn robot(name: &str) -> Result<Option<Robot>, Failure> {
+    if let Some(it) = robots::embedded(name) {
+        return Ok(Some(Robot::parse(it.name, it.text)?));
+    }
+    if !kind::is(name, FileKind::Robot) {
+        return Ok(None);
+    }
+    let text = kind::text(name, "a robot's file", input::MISSION_BYTES, &[FileKind::Robot])?;
+    Ok(Some(Robot::parse(name, &text)?))
 }
 
 /// The protocol by which a team gives its tasks out.

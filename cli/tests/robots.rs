@@ -80,7 +80,7 @@ fn the_failures_of_a_robot_are_analysed_if_their_rates_are_said() {
 #[test]
 fn commands_of_missions_say_that_a_robot_is_none() {
     let folder = cart("robots_missions");
-    for command in ["plan", "run", "campaign", "table"] {
+    for command in ["plan", "run", "campaign"] {
         let refused = folder.cotama(&[command, "cart.toml"]);
         assert_eq!(refused.code, Some(2), "{command}");
         let (is, next) = ("this is a robot", "try `cotama check cart.toml`");

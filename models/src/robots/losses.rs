@@ -1,5 +1,6 @@
 //! Reports of failures, and the losses that make a difference.
 
+use super::supervisors::word;
 use super::{Failure, MAX_LOSSES, MAX_REPORTS, Mode, Parts, Restarts, Robot, members};
 use crate::cotama::Severity;
 
@@ -85,7 +86,8 @@ impl Losses {
             let loss = (gone & relevant != 0).then(|| {
                 let known = losses.iter().position(|loss| (loss.modules ^ gone) & relevant == 0);
                 known.unwrap_or_else(|| {
-                    losses.push(Loss { name: name(robot, it), modules: gone });
+                    let name = name(robot, it, &losses);
+                    losses.push(Loss { name, modules: gone });
                     losses.len() - 1
                 })
             });
@@ -147,12 +149,14 @@ fn relevant(robot: &Robot) -> u64 {
     }
 }
 
-/// Names a loss by the first part that a failure takes.
-fn name(robot: &Robot, failure: &Failure) -> String {
+/// Names a loss by the first part that a failure takes; a name that is taken, by the failure too.
+fn name(robot: &Robot, failure: &Failure, losses: &[Loss]) -> String {
     let hardware = members(failure.loses.hardware).next().and_then(|it| robot.hardware.get(it));
     let module = members(failure.loses.modules).next().and_then(|it| robot.modules.get(it));
     let name = hardware.map(|it| &it.name).or(module.map(|it| &it.name));
-    name.unwrap_or(&failure.id).clone()
+    let name = name.unwrap_or(&failure.id);
+    let is_taken = losses.iter().any(|it| word(&it.name) == word(name));
+    if is_taken { format!("{name}_{}", failure.id) } else { name.clone() }
 }
 
 fn left(robot: &Robot, losses: &[Loss], lost: u32) -> Left {

@@ -1,5 +1,6 @@
 //! Checks of a robot that was read: a part that makes no sense is an error.
 
+use super::supervisors::word;
 use super::{Mode, Parts, Robot, members, reached};
 use crate::cotama::Severity;
 use crate::missions::Diagnostic;
@@ -134,21 +135,42 @@ pub(super) fn makes_sense(robot: &Robot, at: &Places, sink: &Sink) -> bool {
     sink.is_empty()
 }
 
-/// Reports names that are taken in the supervisors.
+/// Words of Rust, in which supervisors are printed.
+const KEYWORDS: &str = "abstract as async await become box break const continue crate do dyn else \
+    enum extern false final fn for gen if impl in let loop macro match mod move mut override priv \
+    pub ref return self static struct super trait true try type typeof unsafe unsized use virtual \
+    where while yield";
+
+/// Reports names that the supervisors have already, or cannot have.
 fn names(robot: &Robot, at: &Places, sink: &Sink) {
-    let mut taken: BTreeSet<String> = RESERVED.iter().map(|it| it.to_lowercase()).collect();
-    let mut new = |name: &str, span: Range<usize>| {
-        if !taken.insert(super::supervisors::word(name).to_lowercase()) {
-            let message = format!("the supervisors have another {}", quoted(name));
-            let it = Diagnostic::new(span, message, "taken");
-            sink.report(it.help("choose another name"));
+    let place = |all: &[Range<usize>], number: usize| all.get(number).cloned().unwrap_or_default();
+    let wrong = |span: Range<usize>, message: String| {
+        sink.report(Diagnostic::new(span, message, "taken").help("choose another name"));
+    };
+    let new = |taken: &mut BTreeSet<String>, name: &str, span: Range<usize>| {
+        let word = word(name).to_lowercase();
+        if !name.starts_with(|it: char| it.is_ascii_alphabetic()) {
+            wrong(span, format!("{} does not begin with a letter", quoted(name)));
+        } else if KEYWORDS.split_whitespace().any(|it| it == word) {
+            wrong(span, format!("{} is a word of Rust", quoted(name)));
+        } else if !taken.insert(word) {
+            wrong(span, format!("the supervisors have another {}", quoted(name)));
         }
     };
+    let mut places: BTreeSet<String> = RESERVED.iter().map(|it| it.to_lowercase()).collect();
     for it in &robot.sub_objectives {
         let first = it.configurations.first().copied().unwrap_or(0);
-        new(&it.name, at.configurations.get(first).cloned().unwrap_or_default());
+        new(&mut places, &it.name, place(&at.configurations, first));
     }
     for (number, it) in robot.configurations.iter().enumerate() {
-        new(&it.name, at.configurations.get(number).cloned().unwrap_or_default());
+        new(&mut places, &it.name, place(&at.configurations, number));
+    }
+    let restarts = robot.modules.iter().map(|it| format!("restart_{}", word(&it.name)));
+    let own = ["refusal", "global_event", "local_event"].map(str::to_owned);
+    let mut told: BTreeSet<_> = restarts.map(|it| it.to_lowercase()).chain(own).collect();
+    // A short name that is there twice is told apart from one that only looks so.
+    let mut ids = BTreeSet::new();
+    for (number, it) in robot.failures.iter().enumerate().filter(|it| ids.insert(&it.1.id)) {
+        new(&mut told, &it.id, place(&at.failures, number));
     }
 }

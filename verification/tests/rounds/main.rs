@@ -17,6 +17,7 @@ mod liveness;
 mod logs;
 mod mutants;
 mod mutations;
+mod printed_robot;
 mod reactions;
 mod reconstruction;
 mod recorded;

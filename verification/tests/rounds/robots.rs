@@ -6,8 +6,10 @@ use cotama_models::robots::Robot;
 use cotama_models::robots::requirements::{self, Requirement};
 use cotama_models::robots::supervisors::{OwnedSystem, system};
 use cotama_verification::check::{Checker, Model, Options, Verdict};
-use cotama_verification::flat::{Looks, Rounds, rounds};
+use cotama_verification::explicit::{Graph, Limits};
+use cotama_verification::flat::{Looks, Rounds, Size, rounds};
 use cotama_verification::property;
+use cotama_verification::pt::Pt;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -283,4 +285,20 @@ fn drawn_robots_keep_their_requirements_or_are_refused_for_their_faults() {
 #[ignore = "two hundred robots: minutes"]
 fn two_hundred_drawn_robots_keep_their_requirements() {
     println!("{} of 200 load", robots(2, 200));
+}
+
+#[test]
+fn the_printed_supervisors_of_a_robot_compile_to_the_same_rounds() {
+    let text = include_str!("../../../cli/templates/robot.toml");
+    let robot = Robot::parse("robot.toml", text).unwrap();
+    let system = system(&robot);
+    let stored = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/rounds/printed_robot.rs");
+    cotama_golden::compare(stored, &system.to_rust());
+    let size = |rounds: Rounds| {
+        let pt = Pt::from(&rounds.net().unwrap().view().net());
+        rounds.size(&Graph::new(&pt, &Limits::default(), &|_| ()).unwrap())
+    };
+    let made = size(system.with(|it| rounds(it).unwrap()));
+    assert_eq!(made, Size { states: 708, edges: 4_154 });
+    assert_eq!(size(rounds(&crate::printed_robot::net_my_robot::SYSTEM).unwrap()), made);
 }

@@ -17,6 +17,7 @@ mod cubes;
 mod draft;
 mod nets;
 mod owned;
+mod rust_source;
 
 pub use owned::OwnedSystem;
 

@@ -16,7 +16,7 @@ needs = ["drive"]
 hardware = ["radio"]
 [observer.eye]
 needs = ["drive"]
-flags = ["late", "silent"]
+flags = ["late", "silent", "stuck"]
 [operator]
 needs = ["link"]
 [[configuration]]
@@ -48,6 +48,11 @@ mode = "no link"
 severity = { autonomous = "weak", operator = "fatal" }
 flags = ["silent"]
 loses = ["radio"]
+[[failure]]
+id = "STK1"
+mode = "stuck"
+severity = { autonomous = "hard" }
+flags = ["stuck"]
 "#;
 
 /// The first error of the file with a text replaced, and what to do.
@@ -139,14 +144,14 @@ fn each_cause_has_one_message_with_its_place_and_what_to_do() {
             "let an observer see it that does not need what is lost",
         ),
         (
-            "[\"late\", \"silent\"]",
-            "[\"late\", \"late\"]",
+            "[\"late\", \"silent\", \"stuck\"]",
+            "[\"late\", \"late\", \"stuck\"]",
             "15:18: the flag `late` is there twice, or has no name",
             "one observer raises a flag",
         ),
         (
-            "[\"late\", \"silent\"]",
-            "[\"late\", \"silent\", \"odd\"]",
+            "[\"late\", \"silent\", \"stuck\"]",
+            "[\"late\", \"silent\", \"odd\", \"stuck\"]",
             "15:28: no failure raises the flag `odd`",
             "name it in `flags` of a failure, or leave it out",
         ),
@@ -166,6 +171,24 @@ fn each_cause_has_one_message_with_its_place_and_what_to_do() {
             "name = \"Blind\"",
             "name = \"Careful\"",
             "25:8: the supervisors have another `Careful`",
+            "choose another name",
+        ),
+        (
+            "name = \"Blind\"",
+            "name = \"3D\"",
+            "25:8: `3D` does not begin with a letter",
+            "choose another name",
+        ),
+        (
+            "name = \"Blind\"",
+            "name = \"Loop\"",
+            "25:8: `Loop` is a word of Rust",
+            "choose another name",
+        ),
+        (
+            "id = \"LNK1\"",
+            "id = \"refusal\"",
+            "42:6: the supervisors have another `refusal`",
             "choose another name",
         ),
         (

@@ -1,0 +1,443 @@
+//! The supervisors of a robot, printed from its file.
+#![allow(nonstandard_style)] // names are those of the file
+
+cotama_core::net! {
+    /// Global supervisor: one drive after another, or security.
+    pub mod net_gs {
+        places {
+            /// No drive.
+            Wait: 1,
+            /// A drive is under way.
+            Drive,
+            /// Stopping for good.
+            Security,
+            /// Stopped for good, alarm given.
+            Safe,
+        }
+        events {
+            /// The objective cannot be managed, or something vital is lost.
+            global_event,
+            /// No configuration is left, and nobody can be asked.
+            no_way,
+            /// The drive has reached its goal.
+            drive_done,
+            /// A drive is wanted.
+            drive_wanted,
+            /// The robot stands.
+            stopped,
+        }
+        outputs {
+            start_drive,
+            gs_abort,
+            halt,
+            alarm,
+        }
+        transitions {
+            start on drive_wanted: Wait => Drive emit start_drive;
+            done on drive_done: Drive => Wait;
+            abort_Wait on global_event: Wait => Security emit gs_abort & halt;
+            give_up_Wait on no_way: Wait => Security emit gs_abort & halt;
+            abort_Drive on global_event: Drive => Security emit gs_abort & halt;
+            give_up_Drive on no_way: Drive => Security emit gs_abort & halt;
+            secured on stopped: Security => Safe emit alarm;
+        }
+        laws { left_to_checker; }
+    }
+}
+
+cotama_core::net! {
+    /// Local supervisor: which sub-objective of a drive runs.
+    pub mod net_ls {
+        places {
+            /// No drive.
+            Idle: 1,
+            /// Follow
+            Follow,
+            /// Manual
+            Manual,
+            /// The robot stands and waits for the operator, or for its end.
+            Waits,
+            /// The goal is reached.
+            End,
+        }
+        shared {
+            lost_lidar,
+            lost_base,
+            lost_radio,
+            local_pending,
+            global_pending,
+        }
+        events {
+            /// The sub-objective needs the operator.
+            local_event,
+            /// A drive begins.
+            start_drive,
+            /// The next round.
+            tick,
+            /// The mission ends.
+            gs_abort,
+            /// The sub-objective is reached.
+            Follow_done,
+            /// The sub-objective is reached.
+            Manual_done,
+            /// The operator chooses it.
+            op_Manual,
+        }
+        outputs {
+            start_Follow,
+            stop_Follow,
+            start_Manual,
+            stop_Manual,
+            op_request,
+            no_way,
+            ended,
+            drive_done,
+        }
+        transitions {
+            start1 on start_drive [!lost_base]: Idle => Follow emit start_Follow;
+            start2 on start_drive [lost_base]: Idle => Waits emit no_way;
+            Follow_done on Follow_done [!local_pending & !global_pending]: Follow => End emit stop_Follow & ended;
+            Manual_done on Manual_done [!local_pending & !global_pending]: Manual => End emit stop_Manual & ended;
+            next on tick: End => Idle emit drive_done;
+            ask_Follow on local_event: Follow => Waits emit stop_Follow & op_request;
+            ask_Manual on local_event: Manual => Waits emit stop_Manual & op_request;
+            Waits_to_Manual1 on op_Manual [!lost_base & !lost_radio]: Waits => Manual emit start_Manual;
+            abort_Follow on gs_abort: Follow => Idle emit stop_Follow;
+            abort_Manual on gs_abort: Manual => Idle emit stop_Manual;
+            abort_Waits on gs_abort: Waits => Idle;
+            abort_End on gs_abort: End => Idle;
+        }
+        laws { left_to_checker; }
+    }
+}
+
+cotama_core::net! {
+    /// Adapter of Follow: which modules run.
+    pub mod net_follow {
+        places {
+            /// Not running.
+            Off: 1,
+            /// Careful
+            Careful,
+            /// Blind
+            Blind,
+        }
+        shared {
+            lost_lidar,
+            lost_base,
+            lost_radio,
+        }
+        events {
+            /// What runs is not available any more.
+            adapt,
+            /// The sub-objective starts.
+            start,
+            /// The sub-objective ends.
+            stop,
+        }
+        outputs {
+            run_Careful,
+            run_Blind,
+        }
+        transitions {
+            start1 on start [!lost_lidar & !lost_base]: Off => Careful emit run_Careful;
+            start3 on start [lost_lidar & !lost_base]: Off => Blind emit run_Blind;
+            Careful_adapts2 on adapt [lost_lidar & !lost_base]: Careful => Blind emit run_Blind;
+            Careful_stops on stop: Careful => Off;
+            Blind_stops on stop: Blind => Off;
+        }
+        laws { left_to_checker; }
+    }
+}
+
+cotama_core::net! {
+    /// The permit to move: motion is a capability that a running activity holds, and that `halt` destroys for good. Ours: the papers only say that the robot stops (Durand et al., TAROS 2010, Section V.C.1).
+    pub mod net_permit {
+        places {
+            /// No permit: the robot stands, or brakes.
+            Withheld: 1,
+            /// Commands of motion are obeyed.
+            Granted,
+            /// There will be no permit any more.
+            Destroyed,
+        }
+        events {
+            /// An activity that moves the robot starts.
+            grant,
+            /// The activity ends.
+            revoke,
+            /// The mission is given up.
+            halt,
+        }
+        transitions {
+            granted on grant: Withheld => Granted;
+            revoked on revoke: Granted => Withheld;
+            destroyed_Withheld on halt: Withheld => Destroyed;
+            destroyed_Granted on halt: Granted => Destroyed;
+        }
+        laws { left_to_checker; }
+    }
+}
+
+cotama_core::net! {
+    /// Global observation module: what is known to be lost, and what is told of it.
+    pub mod net_gom {
+        places {
+            /// It diagnoses at once.
+            Ready: 1,
+        }
+        flags {
+            /// lidar is known to be lost.
+            lost_lidar: false,
+            /// base is known to be lost.
+            lost_base: false,
+            /// radio is known to be lost.
+            lost_radio: false,
+        }
+        counters {
+            /// How often scan may still be started anew.
+            restarts_LID1: 2 of 2,
+        }
+        events {
+            /// LID1: no scan
+            flag_LID1,
+            /// BAS1: no answer of the base
+            flag_BAS1,
+            /// STK1: the robot is stuck
+            flag_STK1,
+            /// LNK1: no link
+            flag_LNK1,
+        }
+        outputs {
+            LID1,
+            restart_scan,
+            BAS1,
+            STK1,
+            LNK1,
+        }
+        transitions {
+            LID1_restarts on flag_LID1 [restarts_LID1 >= 1]: Ready => Ready
+            do restarts_LID1 -= 1 emit restart_scan;
+            LID1 on flag_LID1 [restarts_LID1 <= 0 & !lost_lidar]: Ready => Ready
+            do lost_lidar = true emit LID1;
+            BAS1 on flag_BAS1 [!lost_base]: Ready => Ready
+            do lost_base = true emit BAS1;
+            BAS1_again on flag_BAS1 [lost_base]: Ready => Ready emit BAS1;
+            STK1 on flag_STK1: Ready => Ready emit STK1;
+            LNK1 on flag_LNK1 [!lost_radio]: Ready => Ready
+            do lost_radio = true emit LNK1;
+            LNK1_again on flag_LNK1 [lost_radio]: Ready => Ready emit LNK1;
+        }
+        laws { left_to_checker; }
+    }
+}
+
+cotama_core::net! {
+    /// Contextual supervisor: what a report means where the robot is.
+    pub mod net_cs {
+        places {
+            /// It decides at once.
+            Ready: 1,
+        }
+        shared {
+            in_Follow,
+            in_Manual,
+            waits,
+            runs_Careful,
+            runs_Blind,
+            lost_lidar,
+            lost_base,
+            lost_radio,
+        }
+        events {
+            /// LID1: no scan
+            LID1,
+            /// BAS1: no answer of the base
+            BAS1,
+            /// STK1: the robot is stuck
+            STK1,
+            /// LNK1: no link
+            LNK1,
+            /// The operator gives up, or does not answer in time.
+            refusal,
+        }
+        outputs {
+            global_event,
+            local_event,
+            adapt_Follow,
+        }
+        transitions {
+            LID1_waits1 on LID1 [waits & !lost_base & lost_radio]: Ready => Ready emit global_event;
+            LID1_waits2 on LID1 [waits & lost_base]: Ready => Ready emit global_event;
+            LID1_Careful1 on LID1 [in_Follow & runs_Careful & !lost_base]: Ready => Ready emit adapt_Follow;
+            LID1_Careful2 on LID1 [in_Follow & runs_Careful & lost_base]: Ready => Ready emit global_event;
+            LID1_Blind1 on LID1 [in_Follow & runs_Blind & lost_base]: Ready => Ready emit global_event;
+            LID1_ByHand1 on LID1 [in_Manual & !lost_base & lost_radio]: Ready => Ready emit global_event;
+            LID1_ByHand2 on LID1 [in_Manual & lost_base]: Ready => Ready emit global_event;
+            BAS1_at_rest1 on BAS1 [!in_Follow & !in_Manual & !waits]: Ready => Ready emit global_event;
+            BAS1_waits1 on BAS1 [waits]: Ready => Ready emit global_event;
+            BAS1_Careful1 on BAS1 [in_Follow & runs_Careful]: Ready => Ready emit global_event;
+            BAS1_Blind1 on BAS1 [in_Follow & runs_Blind]: Ready => Ready emit global_event;
+            BAS1_ByHand1 on BAS1 [in_Manual]: Ready => Ready emit global_event;
+            STK1_Careful1 on STK1 [in_Follow & runs_Careful & !lost_base & !lost_radio]: Ready => Ready emit local_event;
+            STK1_Careful2 on STK1 [in_Follow & runs_Careful & !lost_base & lost_radio]: Ready => Ready emit global_event;
+            STK1_Careful3 on STK1 [in_Follow & runs_Careful & lost_base]: Ready => Ready emit global_event;
+            STK1_Blind1 on STK1 [in_Follow & runs_Blind & !lost_base & !lost_radio]: Ready => Ready emit local_event;
+            STK1_Blind2 on STK1 [in_Follow & runs_Blind & !lost_base & lost_radio]: Ready => Ready emit global_event;
+            STK1_Blind3 on STK1 [in_Follow & runs_Blind & lost_base]: Ready => Ready emit global_event;
+            LNK1_waits1 on LNK1 [waits]: Ready => Ready emit global_event;
+            LNK1_Careful1 on LNK1 [in_Follow & runs_Careful & !lost_lidar & lost_base]: Ready => Ready emit global_event;
+            LNK1_Careful2 on LNK1 [in_Follow & runs_Careful & lost_lidar & !lost_base]: Ready => Ready emit adapt_Follow;
+            LNK1_Careful3 on LNK1 [in_Follow & runs_Careful & lost_lidar & lost_base]: Ready => Ready emit global_event;
+            LNK1_Blind1 on LNK1 [in_Follow & runs_Blind & lost_base]: Ready => Ready emit global_event;
+            LNK1_ByHand1 on LNK1 [in_Manual]: Ready => Ready emit global_event;
+            refusal_in_Manual on refusal [in_Manual]: Ready => Ready emit global_event;
+            refusal_waits on refusal [waits]: Ready => Ready emit global_event;
+        }
+        laws { left_to_checker; }
+    }
+}
+
+cotama_core::net! {
+    /// Whatever can fail, at any time.
+    pub mod net_faults {
+        places {
+            /// Anything may fail.
+            Ready: 1,
+        }
+        events {
+            /// LID1: no scan
+            fail_LID1,
+            /// BAS1: no answer of the base
+            fail_BAS1,
+            /// STK1: the robot is stuck
+            fail_STK1,
+            /// LNK1: no link
+            fail_LNK1,
+        }
+        outputs {
+            flag_LID1,
+            flag_BAS1,
+            flag_STK1,
+            flag_LNK1,
+        }
+        transitions {
+            fail_LID1 on fail_LID1: Ready => Ready emit flag_LID1;
+            fail_BAS1 on fail_BAS1: Ready => Ready emit flag_BAS1;
+            fail_STK1 on fail_STK1: Ready => Ready emit flag_STK1;
+            fail_LNK1 on fail_LNK1: Ready => Ready emit flag_LNK1;
+        }
+        laws { left_to_checker; }
+    }
+}
+
+cotama_core::net! {
+    /// The operator, whatever he does.
+    pub mod net_operator {
+        places {
+            /// Whatever he does.
+            Ready: 1,
+        }
+        shared {
+            waits,
+            in_Manual,
+            lost_lidar,
+            lost_base,
+            lost_radio,
+        }
+        events {
+            /// He gives up, or is silent for too long.
+            gives_up,
+            /// He chooses it.
+            choose_Manual,
+            /// He is done with it.
+            finish_Manual,
+        }
+        outputs {
+            refusal,
+            op_Manual,
+            Manual_done,
+        }
+        transitions {
+            choose_Manual_waits1 on choose_Manual [waits & !lost_radio]: Ready => Ready emit op_Manual;
+            finish_Manual1 on finish_Manual [in_Manual & !lost_radio]: Ready => Ready emit Manual_done;
+            gives_up_in_Manual on gives_up [in_Manual]: Ready => Ready emit refusal;
+            gives_up_waits on gives_up [waits]: Ready => Ready emit refusal;
+        }
+        laws { left_to_checker; }
+    }
+}
+
+cotama_core::system! {
+    /// The supervisors of my-robot, made from its file.
+    pub mod net_my_robot {
+        nets {
+            gs: net_gs,
+            ls: net_ls,
+            Follow: net_follow,
+            permit: net_permit,
+            gom: net_gom,
+            cs: net_cs,
+            faults: net_faults,
+            operator: net_operator,
+        }
+        links {
+            gs.start_drive => ls.start_drive mail 1;
+            gs.gs_abort => ls.gs_abort now;
+            gs.halt => permit.halt now;
+            ls.ended => ls.tick mail 1;
+            ls.drive_done => gs.drive_done mail 1;
+            ls.no_way => gs.no_way mail 1;
+            cs.global_event => gs.global_event mail 1;
+            cs.local_event => ls.local_event mail 1;
+            ls.start_Follow => Follow.start now;
+            ls.stop_Follow => Follow.stop now;
+            cs.adapt_Follow => Follow.adapt mail 1;
+            ls.start_Follow => permit.grant now;
+            ls.stop_Follow => permit.revoke now;
+            ls.start_Manual => permit.grant now;
+            ls.stop_Manual => permit.revoke now;
+            gom.LID1 => cs.LID1 mail 1;
+            faults.flag_LID1 => gom.flag_LID1 mail 1;
+            gom.BAS1 => cs.BAS1 mail 1;
+            faults.flag_BAS1 => gom.flag_BAS1 mail 1;
+            gom.STK1 => cs.STK1 mail 1;
+            faults.flag_STK1 => gom.flag_STK1 mail 1;
+            gom.LNK1 => cs.LNK1 mail 1;
+            faults.flag_LNK1 => gom.flag_LNK1 mail 1;
+            operator.refusal => cs.refusal mail 1;
+            operator.op_Manual => ls.op_Manual now;
+            operator.Manual_done => ls.Manual_done now;
+        }
+        shared {
+            cs.waits = ls.Waits;
+            operator.waits = ls.Waits;
+            cs.in_Follow = ls.Follow;
+            cs.in_Manual = ls.Manual;
+            operator.in_Manual = ls.Manual;
+            cs.runs_Careful = Follow.Careful;
+            cs.runs_Blind = Follow.Blind;
+            cs.lost_lidar = gom.lost_lidar;
+            operator.lost_lidar = gom.lost_lidar;
+            ls.lost_lidar = gom.lost_lidar;
+            Follow.lost_lidar = gom.lost_lidar;
+            cs.lost_base = gom.lost_base;
+            operator.lost_base = gom.lost_base;
+            ls.lost_base = gom.lost_base;
+            Follow.lost_base = gom.lost_base;
+            cs.lost_radio = gom.lost_radio;
+            operator.lost_radio = gom.lost_radio;
+            ls.lost_radio = gom.lost_radio;
+            Follow.lost_radio = gom.lost_radio;
+        }
+        pending {
+            ls.local_pending = ls.local_event;
+            ls.global_pending = gs.global_event;
+        }
+        clears {
+            ls.gs_abort empties ls.local_event;
+            ls.gs_abort empties ls.start_drive;
+        }
+        laws { left_to_checker; }
+    }
+}
