@@ -96,12 +96,15 @@ cotama_core::net! {
         transitions {
             start1 on start_drive [!lost_base]: Idle => Follow emit start_Follow;
             start2 on start_drive [lost_base]: Idle => Waits emit no_way;
-            Follow_done on Follow_done [!local_pending & !global_pending]: Follow => End emit stop_Follow & ended;
-            Manual_done on Manual_done [!local_pending & !global_pending]: Manual => End emit stop_Manual & ended;
+            Follow_done on Follow_done [!local_pending & !global_pending]: Follow => End
+                emit stop_Follow & ended;
+            Manual_done on Manual_done [!local_pending & !global_pending]: Manual => End
+                emit stop_Manual & ended;
             next on tick: End => Idle emit drive_done;
             ask_Follow on local_event: Follow => Waits emit stop_Follow & op_request;
             ask_Manual on local_event: Manual => Waits emit stop_Manual & op_request;
-            Waits_to_Manual1 on op_Manual [!lost_base & !lost_radio]: Waits => Manual emit start_Manual;
+            Waits_to_Manual1 on op_Manual [!lost_base & !lost_radio]: Waits => Manual
+                emit start_Manual;
             abort_Follow on gs_abort: Follow => Idle emit stop_Follow;
             abort_Manual on gs_abort: Manual => Idle emit stop_Manual;
             abort_Waits on gs_abort: Waits => Idle;
@@ -151,7 +154,9 @@ cotama_core::net! {
 }
 
 cotama_core::net! {
-    /// The permit to move: motion is a capability that a running activity holds, and that `halt` destroys for good. Ours: the papers only say that the robot stops (Durand et al., TAROS 2010, Section V.C.1).
+    /// The permit to move: motion is a capability that a running activity holds, and that `halt`
+    /// destroys for good. Ours: the papers only say that the robot stops (Durand et al., TAROS
+    /// 2010, Section V.C.1).
     pub mod net_permit {
         places {
             /// No permit: the robot stands, or brakes.
@@ -216,16 +221,14 @@ cotama_core::net! {
             LNK1,
         }
         transitions {
-            LID1_restarts on flag_LID1 [restarts_LID1 >= 1]: Ready => Ready
-            do restarts_LID1 -= 1 emit restart_scan;
+            LID1_restarts on flag_LID1 [restarts_LID1 >= 1]: Ready => Ready do restarts_LID1 -= 1
+                emit restart_scan;
             LID1 on flag_LID1 [restarts_LID1 <= 0 & !lost_lidar]: Ready => Ready
-            do lost_lidar = true emit LID1;
-            BAS1 on flag_BAS1 [!lost_base]: Ready => Ready
-            do lost_base = true emit BAS1;
+                do lost_lidar = true emit LID1;
+            BAS1 on flag_BAS1 [!lost_base]: Ready => Ready do lost_base = true emit BAS1;
             BAS1_again on flag_BAS1 [lost_base]: Ready => Ready emit BAS1;
             STK1 on flag_STK1: Ready => Ready emit STK1;
-            LNK1 on flag_LNK1 [!lost_radio]: Ready => Ready
-            do lost_radio = true emit LNK1;
+            LNK1 on flag_LNK1 [!lost_radio]: Ready => Ready do lost_radio = true emit LNK1;
             LNK1_again on flag_LNK1 [lost_radio]: Ready => Ready emit LNK1;
         }
         laws { left_to_checker; }
@@ -269,27 +272,42 @@ cotama_core::net! {
         transitions {
             LID1_waits1 on LID1 [waits & !lost_base & lost_radio]: Ready => Ready emit global_event;
             LID1_waits2 on LID1 [waits & lost_base]: Ready => Ready emit global_event;
-            LID1_Careful1 on LID1 [in_Follow & runs_Careful & !lost_base]: Ready => Ready emit adapt_Follow;
-            LID1_Careful2 on LID1 [in_Follow & runs_Careful & lost_base]: Ready => Ready emit global_event;
-            LID1_Blind1 on LID1 [in_Follow & runs_Blind & lost_base]: Ready => Ready emit global_event;
-            LID1_ByHand1 on LID1 [in_Manual & !lost_base & lost_radio]: Ready => Ready emit global_event;
+            LID1_Careful1 on LID1 [in_Follow & runs_Careful & !lost_base]: Ready => Ready
+                emit adapt_Follow;
+            LID1_Careful2 on LID1 [in_Follow & runs_Careful & lost_base]: Ready => Ready
+                emit global_event;
+            LID1_Blind1 on LID1 [in_Follow & runs_Blind & lost_base]: Ready => Ready
+                emit global_event;
+            LID1_ByHand1 on LID1 [in_Manual & !lost_base & lost_radio]: Ready => Ready
+                emit global_event;
             LID1_ByHand2 on LID1 [in_Manual & lost_base]: Ready => Ready emit global_event;
-            BAS1_at_rest1 on BAS1 [!in_Follow & !in_Manual & !waits]: Ready => Ready emit global_event;
+            BAS1_at_rest1 on BAS1 [!in_Follow & !in_Manual & !waits]: Ready => Ready
+                emit global_event;
             BAS1_waits1 on BAS1 [waits]: Ready => Ready emit global_event;
             BAS1_Careful1 on BAS1 [in_Follow & runs_Careful]: Ready => Ready emit global_event;
             BAS1_Blind1 on BAS1 [in_Follow & runs_Blind]: Ready => Ready emit global_event;
             BAS1_ByHand1 on BAS1 [in_Manual]: Ready => Ready emit global_event;
-            STK1_Careful1 on STK1 [in_Follow & runs_Careful & !lost_base & !lost_radio]: Ready => Ready emit local_event;
-            STK1_Careful2 on STK1 [in_Follow & runs_Careful & !lost_base & lost_radio]: Ready => Ready emit global_event;
-            STK1_Careful3 on STK1 [in_Follow & runs_Careful & lost_base]: Ready => Ready emit global_event;
-            STK1_Blind1 on STK1 [in_Follow & runs_Blind & !lost_base & !lost_radio]: Ready => Ready emit local_event;
-            STK1_Blind2 on STK1 [in_Follow & runs_Blind & !lost_base & lost_radio]: Ready => Ready emit global_event;
-            STK1_Blind3 on STK1 [in_Follow & runs_Blind & lost_base]: Ready => Ready emit global_event;
+            STK1_Careful1 on STK1 [in_Follow & runs_Careful & !lost_base & !lost_radio]:
+                Ready => Ready emit local_event;
+            STK1_Careful2 on STK1 [in_Follow & runs_Careful & !lost_base & lost_radio]:
+                Ready => Ready emit global_event;
+            STK1_Careful3 on STK1 [in_Follow & runs_Careful & lost_base]: Ready => Ready
+                emit global_event;
+            STK1_Blind1 on STK1 [in_Follow & runs_Blind & !lost_base & !lost_radio]: Ready => Ready
+                emit local_event;
+            STK1_Blind2 on STK1 [in_Follow & runs_Blind & !lost_base & lost_radio]: Ready => Ready
+                emit global_event;
+            STK1_Blind3 on STK1 [in_Follow & runs_Blind & lost_base]: Ready => Ready
+                emit global_event;
             LNK1_waits1 on LNK1 [waits]: Ready => Ready emit global_event;
-            LNK1_Careful1 on LNK1 [in_Follow & runs_Careful & !lost_lidar & lost_base]: Ready => Ready emit global_event;
-            LNK1_Careful2 on LNK1 [in_Follow & runs_Careful & lost_lidar & !lost_base]: Ready => Ready emit adapt_Follow;
-            LNK1_Careful3 on LNK1 [in_Follow & runs_Careful & lost_lidar & lost_base]: Ready => Ready emit global_event;
-            LNK1_Blind1 on LNK1 [in_Follow & runs_Blind & lost_base]: Ready => Ready emit global_event;
+            LNK1_Careful1 on LNK1 [in_Follow & runs_Careful & !lost_lidar & lost_base]:
+                Ready => Ready emit global_event;
+            LNK1_Careful2 on LNK1 [in_Follow & runs_Careful & lost_lidar & !lost_base]:
+                Ready => Ready emit adapt_Follow;
+            LNK1_Careful3 on LNK1 [in_Follow & runs_Careful & lost_lidar & lost_base]:
+                Ready => Ready emit global_event;
+            LNK1_Blind1 on LNK1 [in_Follow & runs_Blind & lost_base]: Ready => Ready
+                emit global_event;
             LNK1_ByHand1 on LNK1 [in_Manual]: Ready => Ready emit global_event;
             refusal_in_Manual on refusal [in_Manual]: Ready => Ready emit global_event;
             refusal_waits on refusal [waits]: Ready => Ready emit global_event;
@@ -359,8 +377,10 @@ cotama_core::net! {
             Manual_done,
         }
         transitions {
-            choose_Manual_waits1 on choose_Manual [waits & !lost_radio]: Ready => Ready emit op_Manual;
-            finish_Manual1 on finish_Manual [in_Manual & !lost_radio]: Ready => Ready emit Manual_done;
+            choose_Manual_waits1 on choose_Manual [waits & !lost_radio]: Ready => Ready
+                emit op_Manual;
+            finish_Manual1 on finish_Manual [in_Manual & !lost_radio]: Ready => Ready
+                emit Manual_done;
             gives_up_in_Manual on gives_up [in_Manual]: Ready => Ready emit refusal;
             gives_up_waits on gives_up [waits]: Ready => Ready emit refusal;
         }

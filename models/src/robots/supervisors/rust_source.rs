@@ -6,7 +6,7 @@ use cotama_core::net::{Arc, PlaceId, Role};
 use cotama_core::system::{Delivery, Of, Target};
 use cotama_core::text::visible;
 use std::collections::BTreeSet;
-use std::fmt::{self, Write};
+use std::fmt;
 
 impl OwnedSystem {
     /// The system as Rust source that needs `cotama-core` alone: a module for each net, and one of
@@ -34,7 +34,8 @@ impl fmt::Display for Source<'_> {
             self::net(f, name, net)?;
         }
         let module = module(&system.name);
-        writeln!(f, "cotama_core::system! {{\n    /// {}\n    pub mod {module} {{", system.doc)?;
+        let doc = comment(&system.doc, "    ");
+        writeln!(f, "cotama_core::system! {{\n{doc}    pub mod {module} {{")?;
         f.write_str("        nets {\n")?;
         for (name, _) in &system.nets {
             writeln!(f, "            {name}: {},", self::module(name))?;
@@ -105,12 +106,10 @@ impl Source<'_> {
 
 fn net(f: &mut fmt::Formatter<'_>, name: &str, net: &OwnedNet) -> fmt::Result {
     let module = module(name);
-    writeln!(f, "cotama_core::net! {{\n    /// {}\n    pub mod {module} {{", net.doc)?;
+    let doc = comment(&net.doc, "    ");
+    writeln!(f, "cotama_core::net! {{\n{doc}    pub mod {module} {{")?;
     let of = |role: fn(Role) -> bool| net.places.iter().filter(move |it| role(it.role));
-    let documented = |it: &OwnedPlace| {
-        let doc = visible(&it.doc);
-        if it.doc.is_empty() { String::new() } else { format!("            /// {doc}\n") }
-    };
+    let documented = |it: &OwnedPlace| comment(&it.doc, "            ");
     f.write_str("        places {\n")?;
     for it in of(|it| matches!(it, Role::State)) {
         let marked = if it.initial > 0 { format!(": {}", it.initial) } else { String::new() };
@@ -130,10 +129,7 @@ fn net(f: &mut fmt::Formatter<'_>, name: &str, net: &OwnedNet) -> fmt::Result {
     })?;
     for (title, all) in [("events", &net.events), ("outputs", &net.outputs)] {
         section(f, title, all.iter(), |it| {
-            let doc = visible(&it.doc);
-            let doc =
-                if it.doc.is_empty() { String::new() } else { format!("/// {doc}\n            ") };
-            format!("            {doc}{},\n", it.name)
+            format!("{}            {},\n", comment(&it.doc, "            "), it.name)
         })?;
     }
     f.write_str("        transitions {\n")?;
@@ -211,18 +207,50 @@ fn line(
     let emits = it.emits.iter().filter_map(|it| net.outputs.get(it.0 as usize));
     let emits: Vec<_> = emits.map(|it| it.name.as_str()).collect();
 
-    let mut text = format!("            {} on {event}", new_name(&super::word(&it.name), names));
-    if !tests.is_empty() {
-        let _ = write!(text, " [{}]", tests.join(" & "));
-    }
-    let _ = write!(text, ": {} => {}", state(&take), state(&give));
+    let name = new_name(&super::word(&it.name), names);
+    let tests = if tests.is_empty() { String::new() } else { format!(" [{}]", tests.join(" & ")) };
+    let mut parts = vec![format!("{name} on {event}{tests}:")];
+    parts.push(format!("{} => {}", state(&take), state(&give)));
     if !changes.is_empty() {
-        let _ = write!(text, "\n            do {}", changes.join(" & "));
+        parts.push(format!("do {}", changes.join(" & ")));
     }
     if !emits.is_empty() {
-        let _ = write!(text, " emit {}", emits.join(" & "));
+        parts.push(format!("emit {}", emits.join(" & ")));
     }
-    writeln!(f, "{text};")
+    let parts = parts.iter().map(String::as_str);
+    writeln!(f, "{};", wrapped(parts, "            ", "                "))
+}
+
+/// Words with blanks between them, in lines of 100 columns with this before the first one and this
+/// before the others.
+fn wrapped<'t>(words: impl Iterator<Item = &'t str>, first: &str, others: &str) -> String {
+    const COLUMNS: usize = 99; // a semicolon may follow
+    let mut text = first.to_owned();
+    let mut column = first.chars().count();
+    for (number, word) in words.enumerate() {
+        let length = word.chars().count();
+        if number > 0 && column + 1 + length > COLUMNS {
+            text += "\n";
+            text += others;
+            column = others.chars().count();
+        } else if number > 0 {
+            text += " ";
+            column += 1;
+        }
+        text += word;
+        column += length;
+    }
+    text
+}
+
+/// A text as comments of what follows; nothing for an empty one.
+fn comment(text: &str, indent: &str) -> String {
+    let begin = format!("{indent}/// ");
+    let text = visible(text).to_string();
+    if text.is_empty() {
+        return String::new();
+    }
+    wrapped(text.split_whitespace(), &begin, &begin) + "\n"
 }
 
 /// A name that no line before has.
