@@ -62,8 +62,7 @@ cotama_core::net! {
         }
         shared {
             lost_lidar,
-            lost_base,
-            lost_radio,
+            lost_camera,
             local_pending,
             global_pending,
         }
@@ -94,8 +93,7 @@ cotama_core::net! {
             drive_done,
         }
         transitions {
-            start1 on start_drive [!lost_base]: Idle => Follow emit start_Follow;
-            start2 on start_drive [lost_base]: Idle => Waits emit no_way;
+            start1 on start_drive: Idle => Follow emit start_Follow;
             Follow_done on Follow_done [!local_pending & !global_pending]: Follow => End
                 emit stop_Follow & ended;
             Manual_done on Manual_done [!local_pending & !global_pending]: Manual => End
@@ -103,8 +101,7 @@ cotama_core::net! {
             next on tick: End => Idle emit drive_done;
             ask_Follow on local_event: Follow => Waits emit stop_Follow & op_request;
             ask_Manual on local_event: Manual => Waits emit stop_Manual & op_request;
-            Waits_to_Manual1 on op_Manual [!lost_base & !lost_radio]: Waits => Manual
-                emit start_Manual;
+            Waits_to_Manual1 on op_Manual: Waits => Manual emit start_Manual;
             abort_Follow on gs_abort: Follow => Idle emit stop_Follow;
             abort_Manual on gs_abort: Manual => Idle emit stop_Manual;
             abort_Waits on gs_abort: Waits => Idle;
@@ -127,8 +124,7 @@ cotama_core::net! {
         }
         shared {
             lost_lidar,
-            lost_base,
-            lost_radio,
+            lost_camera,
         }
         events {
             /// What runs is not available any more.
@@ -143,9 +139,10 @@ cotama_core::net! {
             run_Blind,
         }
         transitions {
-            start1 on start [!lost_lidar & !lost_base]: Off => Careful emit run_Careful;
-            start3 on start [lost_lidar & !lost_base]: Off => Blind emit run_Blind;
-            Careful_adapts2 on adapt [lost_lidar & !lost_base]: Careful => Blind emit run_Blind;
+            start1 on start [!lost_lidar]: Off => Careful emit run_Careful;
+            start2 on start [lost_lidar & !lost_camera]: Off => Careful emit run_Careful;
+            start3 on start [lost_lidar & lost_camera]: Off => Blind emit run_Blind;
+            Careful_adapts3 on adapt [lost_lidar & lost_camera]: Careful => Blind emit run_Blind;
             Careful_stops on stop: Careful => Off;
             Blind_stops on stop: Blind => Off;
         }
@@ -194,10 +191,8 @@ cotama_core::net! {
         flags {
             /// lidar is known to be lost.
             lost_lidar: false,
-            /// base is known to be lost.
-            lost_base: false,
-            /// radio is known to be lost.
-            lost_radio: false,
+            /// camera is known to be lost.
+            lost_camera: false,
         }
         counters {
             /// How often scan may still be started anew.
@@ -206,30 +201,24 @@ cotama_core::net! {
         events {
             /// LID1: no scan
             flag_LID1,
-            /// BAS1: no answer of the base
-            flag_BAS1,
-            /// STK1: the robot is stuck
+            /// CAM1: no image
+            flag_CAM1,
+            /// STK1: stuck
             flag_STK1,
-            /// LNK1: no link
-            flag_LNK1,
         }
         outputs {
             LID1,
             restart_scan,
-            BAS1,
+            CAM1,
             STK1,
-            LNK1,
         }
         transitions {
             LID1_restarts on flag_LID1 [restarts_LID1 >= 1]: Ready => Ready do restarts_LID1 -= 1
                 emit restart_scan;
             LID1 on flag_LID1 [restarts_LID1 <= 0 & !lost_lidar]: Ready => Ready
                 do lost_lidar = true emit LID1;
-            BAS1 on flag_BAS1 [!lost_base]: Ready => Ready do lost_base = true emit BAS1;
-            BAS1_again on flag_BAS1 [lost_base]: Ready => Ready emit BAS1;
+            CAM1 on flag_CAM1 [!lost_camera]: Ready => Ready do lost_camera = true emit CAM1;
             STK1 on flag_STK1: Ready => Ready emit STK1;
-            LNK1 on flag_LNK1 [!lost_radio]: Ready => Ready do lost_radio = true emit LNK1;
-            LNK1_again on flag_LNK1 [lost_radio]: Ready => Ready emit LNK1;
         }
         laws { left_to_checker; }
     }
@@ -249,18 +238,15 @@ cotama_core::net! {
             runs_Careful,
             runs_Blind,
             lost_lidar,
-            lost_base,
-            lost_radio,
+            lost_camera,
         }
         events {
             /// LID1: no scan
             LID1,
-            /// BAS1: no answer of the base
-            BAS1,
-            /// STK1: the robot is stuck
+            /// CAM1: no image
+            CAM1,
+            /// STK1: stuck
             STK1,
-            /// LNK1: no link
-            LNK1,
             /// The operator gives up, or does not answer in time.
             refusal,
         }
@@ -270,45 +256,12 @@ cotama_core::net! {
             adapt_Follow,
         }
         transitions {
-            LID1_waits1 on LID1 [waits & !lost_base & lost_radio]: Ready => Ready emit global_event;
-            LID1_waits2 on LID1 [waits & lost_base]: Ready => Ready emit global_event;
-            LID1_Careful1 on LID1 [in_Follow & runs_Careful & !lost_base]: Ready => Ready
+            LID1_Careful1 on LID1 [in_Follow & runs_Careful & lost_camera]: Ready => Ready
                 emit adapt_Follow;
-            LID1_Careful2 on LID1 [in_Follow & runs_Careful & lost_base]: Ready => Ready
-                emit global_event;
-            LID1_Blind1 on LID1 [in_Follow & runs_Blind & lost_base]: Ready => Ready
-                emit global_event;
-            LID1_ByHand1 on LID1 [in_Manual & !lost_base & lost_radio]: Ready => Ready
-                emit global_event;
-            LID1_ByHand2 on LID1 [in_Manual & lost_base]: Ready => Ready emit global_event;
-            BAS1_at_rest1 on BAS1 [!in_Follow & !in_Manual & !waits]: Ready => Ready
-                emit global_event;
-            BAS1_waits1 on BAS1 [waits]: Ready => Ready emit global_event;
-            BAS1_Careful1 on BAS1 [in_Follow & runs_Careful]: Ready => Ready emit global_event;
-            BAS1_Blind1 on BAS1 [in_Follow & runs_Blind]: Ready => Ready emit global_event;
-            BAS1_ByHand1 on BAS1 [in_Manual]: Ready => Ready emit global_event;
-            STK1_Careful1 on STK1 [in_Follow & runs_Careful & !lost_base & !lost_radio]:
-                Ready => Ready emit local_event;
-            STK1_Careful2 on STK1 [in_Follow & runs_Careful & !lost_base & lost_radio]:
-                Ready => Ready emit global_event;
-            STK1_Careful3 on STK1 [in_Follow & runs_Careful & lost_base]: Ready => Ready
-                emit global_event;
-            STK1_Blind1 on STK1 [in_Follow & runs_Blind & !lost_base & !lost_radio]: Ready => Ready
-                emit local_event;
-            STK1_Blind2 on STK1 [in_Follow & runs_Blind & !lost_base & lost_radio]: Ready => Ready
-                emit global_event;
-            STK1_Blind3 on STK1 [in_Follow & runs_Blind & lost_base]: Ready => Ready
-                emit global_event;
-            LNK1_waits1 on LNK1 [waits]: Ready => Ready emit global_event;
-            LNK1_Careful1 on LNK1 [in_Follow & runs_Careful & !lost_lidar & lost_base]:
-                Ready => Ready emit global_event;
-            LNK1_Careful2 on LNK1 [in_Follow & runs_Careful & lost_lidar & !lost_base]:
-                Ready => Ready emit adapt_Follow;
-            LNK1_Careful3 on LNK1 [in_Follow & runs_Careful & lost_lidar & lost_base]:
-                Ready => Ready emit global_event;
-            LNK1_Blind1 on LNK1 [in_Follow & runs_Blind & lost_base]: Ready => Ready
-                emit global_event;
-            LNK1_ByHand1 on LNK1 [in_Manual]: Ready => Ready emit global_event;
+            CAM1_Careful1 on CAM1 [in_Follow & runs_Careful & lost_lidar]: Ready => Ready
+                emit adapt_Follow;
+            STK1_Careful1 on STK1 [in_Follow & runs_Careful]: Ready => Ready emit local_event;
+            STK1_Blind1 on STK1 [in_Follow & runs_Blind]: Ready => Ready emit local_event;
             refusal_in_Manual on refusal [in_Manual]: Ready => Ready emit global_event;
             refusal_waits on refusal [waits]: Ready => Ready emit global_event;
         }
@@ -326,24 +279,20 @@ cotama_core::net! {
         events {
             /// LID1: no scan
             fail_LID1,
-            /// BAS1: no answer of the base
-            fail_BAS1,
-            /// STK1: the robot is stuck
+            /// CAM1: no image
+            fail_CAM1,
+            /// STK1: stuck
             fail_STK1,
-            /// LNK1: no link
-            fail_LNK1,
         }
         outputs {
             flag_LID1,
-            flag_BAS1,
+            flag_CAM1,
             flag_STK1,
-            flag_LNK1,
         }
         transitions {
             fail_LID1 on fail_LID1: Ready => Ready emit flag_LID1;
-            fail_BAS1 on fail_BAS1: Ready => Ready emit flag_BAS1;
+            fail_CAM1 on fail_CAM1: Ready => Ready emit flag_CAM1;
             fail_STK1 on fail_STK1: Ready => Ready emit flag_STK1;
-            fail_LNK1 on fail_LNK1: Ready => Ready emit flag_LNK1;
         }
         laws { left_to_checker; }
     }
@@ -360,8 +309,7 @@ cotama_core::net! {
             waits,
             in_Manual,
             lost_lidar,
-            lost_base,
-            lost_radio,
+            lost_camera,
         }
         events {
             /// He gives up, or is silent for too long.
@@ -377,10 +325,8 @@ cotama_core::net! {
             Manual_done,
         }
         transitions {
-            choose_Manual_waits1 on choose_Manual [waits & !lost_radio]: Ready => Ready
-                emit op_Manual;
-            finish_Manual1 on finish_Manual [in_Manual & !lost_radio]: Ready => Ready
-                emit Manual_done;
+            choose_Manual_waits1 on choose_Manual [waits]: Ready => Ready emit op_Manual;
+            finish_Manual1 on finish_Manual [in_Manual]: Ready => Ready emit Manual_done;
             gives_up_in_Manual on gives_up [in_Manual]: Ready => Ready emit refusal;
             gives_up_waits on gives_up [waits]: Ready => Ready emit refusal;
         }
@@ -389,8 +335,8 @@ cotama_core::net! {
 }
 
 cotama_core::system! {
-    /// The supervisors of my-robot, made from its file.
-    pub mod net_my_robot {
+    /// The supervisors of scout, made from its file.
+    pub mod net_scout {
         nets {
             gs: net_gs,
             ls: net_ls,
@@ -419,12 +365,10 @@ cotama_core::system! {
             ls.stop_Manual => permit.revoke now;
             gom.LID1 => cs.LID1 mail 1;
             faults.flag_LID1 => gom.flag_LID1 mail 1;
-            gom.BAS1 => cs.BAS1 mail 1;
-            faults.flag_BAS1 => gom.flag_BAS1 mail 1;
+            gom.CAM1 => cs.CAM1 mail 1;
+            faults.flag_CAM1 => gom.flag_CAM1 mail 1;
             gom.STK1 => cs.STK1 mail 1;
             faults.flag_STK1 => gom.flag_STK1 mail 1;
-            gom.LNK1 => cs.LNK1 mail 1;
-            faults.flag_LNK1 => gom.flag_LNK1 mail 1;
             operator.refusal => cs.refusal mail 1;
             operator.op_Manual => ls.op_Manual now;
             operator.Manual_done => ls.Manual_done now;
@@ -441,14 +385,10 @@ cotama_core::system! {
             operator.lost_lidar = gom.lost_lidar;
             ls.lost_lidar = gom.lost_lidar;
             Follow.lost_lidar = gom.lost_lidar;
-            cs.lost_base = gom.lost_base;
-            operator.lost_base = gom.lost_base;
-            ls.lost_base = gom.lost_base;
-            Follow.lost_base = gom.lost_base;
-            cs.lost_radio = gom.lost_radio;
-            operator.lost_radio = gom.lost_radio;
-            ls.lost_radio = gom.lost_radio;
-            Follow.lost_radio = gom.lost_radio;
+            cs.lost_camera = gom.lost_camera;
+            operator.lost_camera = gom.lost_camera;
+            ls.lost_camera = gom.lost_camera;
+            Follow.lost_camera = gom.lost_camera;
         }
         pending {
             ls.local_pending = ls.local_event;
