@@ -43,7 +43,7 @@ pub struct Differing {
 /// ```
 ///
 /// # Errors
-/// Those of the reader of JSON, for a line that is no such record.
+/// The errors of the reader of JSON, for a line that is no such record.
 pub fn read<T: DeserializeOwned + Serialize>(line: &str) -> Result<Read<T>, Wrong> {
     // Writing these types to memory cannot fail.
     let text = |record: &T| serde_json::to_string(record).unwrap_or_default();

@@ -180,7 +180,7 @@ fn a_full_mailbox_refuses_and_nothing_has_happened() {
     assert_eq!(line, before);
 }
 
-/// What is told to a person has the names of the tables, not numbers of places in them.
+/// Messages to a person have the names of the tables, not numbers of places in them.
 #[test]
 fn answers_of_a_system_are_shown_by_their_names() {
     let (mut line, mut cell) = (Line::new(), broadcast::Carrying::<u8>::new());

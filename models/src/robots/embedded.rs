@@ -17,12 +17,12 @@ pub struct EmbeddedRobot {
 pub const EMBEDDED: [EmbeddedRobot; 2] = [
     EmbeddedRobot {
         name: "p3dx-delivery",
-        description: "Pioneer 3-DX of Durand et al. 2010: 10 configurations, 41 failures",
+        description: "Pioneer 3-DX of Durand et al. 2010: 8 configurations, 46 failures",
         text: include_str!("../../robots/p3dx-delivery.toml"),
     },
     EmbeddedRobot {
         name: "transport",
-        description: "indoor transport robot: safety scanner, lidar, lift; nobody's paper",
+        description: "indoor transport robot with safety scanner, lidar and lift; from no paper",
         text: include_str!("../../robots/transport.toml"),
     },
 ];
@@ -34,6 +34,8 @@ pub const EMBEDDED: [EmbeddedRobot; 2] = [
 /// let transport = embedded("transport").unwrap();
 /// let robot = Robot::parse(transport.name, transport.text).unwrap();
 /// assert_eq!((robot.modules.len(), robot.sub_objectives.len()), (12, 5));
+/// let delivery = Robot::shipped("p3dx-delivery").unwrap();
+/// assert_eq!((delivery.configurations.len(), delivery.failures.len()), (8, 46));
 /// assert_eq!(embedded("nope"), None);
 /// ```
 pub fn embedded(name: &str) -> Option<EmbeddedRobot> {

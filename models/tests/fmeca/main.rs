@@ -246,7 +246,7 @@ fn names_in_a_list_are_told_apart_by_a_semicolon_or_a_line_end() {
     }
 }
 
-/// What stands between names in one table stands within a name of another one.
+/// Separators of names in one table stand within a name of another one.
 #[test]
 fn a_cell_that_could_be_one_name_or_several_is_refused_with_both_spellings() {
     let read = |cell: &str| {

@@ -54,7 +54,8 @@
 //! | `+`, `-` | sum, difference |
 //! | `*` | product, of which one factor is a number |
 //!
-//! What takes one operand takes a comparison, a negation or the like: `AG p <= 3` is `AG (p <= 3)`.
+//! An operator of one operand takes a comparison, a negation or the like: `AG p <= 3` is
+//! `AG (p <= 3)`.
 //! A quantifier may have brackets: `E[a U b]`. How far one reaches is asked for where it could be
 //! meant otherwise: `AG a -> b` is refused, with `AG (a -> b)` and `(AG a) -> b` as the ways to say
 //! it, and so are `AG p & q` and `EF p | q`; `AG a & EF b`, of which each part has a quantifier, is

@@ -45,7 +45,7 @@ impl Space {
         Some(Self { markings, next })
     }
 
-    /// Of each marking, whether one that holds can follow it, or is it.
+    /// Returns for each marking whether one that holds can follow it, or is it.
     fn can(&self, holds: &[bool]) -> Vec<bool> {
         let mut can = holds.to_vec();
         loop {

@@ -127,7 +127,7 @@ cotama_core::net! {
             lost_camera,
         }
         events {
-            /// What runs is not available any more.
+            /// The configuration that runs is not available any more.
             adapt,
             /// The sub-objective starts.
             start,
@@ -185,7 +185,7 @@ cotama_core::net! {
     /// Global observation module: what is known to be lost, and what is told of it.
     pub mod net_gom {
         places {
-            /// It diagnoses at once.
+            /// Diagnoses at once.
             Ready: 1,
         }
         flags {
@@ -228,7 +228,7 @@ cotama_core::net! {
     /// Contextual supervisor: what a report means where the robot is.
     pub mod net_cs {
         places {
-            /// It decides at once.
+            /// Decides at once.
             Ready: 1,
         }
         shared {
@@ -270,7 +270,7 @@ cotama_core::net! {
 }
 
 cotama_core::net! {
-    /// Whatever can fail, at any time.
+    /// All failures, at any time.
     pub mod net_faults {
         places {
             /// Anything may fail.
@@ -299,10 +299,10 @@ cotama_core::net! {
 }
 
 cotama_core::net! {
-    /// The operator, whatever he does.
+    /// The operator: may do anything, at any time.
     pub mod net_operator {
         places {
-            /// Whatever he does.
+            /// May do anything.
             Ready: 1,
         }
         shared {

@@ -220,7 +220,7 @@ impl Drawn {
         !hardware.is_empty() || needs.iter().any(|it| self.stands(*it))
     }
 
-    /// What makes no sense, in words of messages.
+    /// Returns the parts that make no sense, in words of messages.
     fn faults(&self) -> BTreeSet<&'static str> {
         let mut faults = BTreeSet::new();
         if !(0..self.modules.len()).all(|it| self.stands(it)) {

@@ -204,7 +204,7 @@ pub(super) fn adapter(robot: &Robot, of: &Part<'_>) -> OwnedNet {
         net.output(&format!("run_{}", configuration(robot, it)), "");
     }
     losses(robot, &mut net);
-    net.event("adapt", "What runs is not available any more.");
+    net.event("adapt", "The configuration that runs is not available any more.");
     net.event("start", "The sub-objective starts.");
     net.event("stop", "The sub-objective ends.");
     let best = |lost: u32| robot.best(of.number, lost, None);
@@ -234,7 +234,7 @@ pub(super) fn adapter(robot: &Robot, of: &Part<'_>) -> OwnedNet {
 pub(super) fn observation(robot: &Robot) -> OwnedNet {
     let doc = "Global observation module: what is known to be lost, and what is told of it.";
     let mut net = Draft::new("observation", doc);
-    net.place("Ready", 1, "It diagnoses at once.");
+    net.place("Ready", 1, "Diagnoses at once.");
     for (number, it) in robot.losses.losses.iter().enumerate() {
         net.flag(&lost(robot, number), &format!("{} is known to be lost.", it.name));
     }
@@ -280,7 +280,7 @@ fn told(robot: &Robot, failures: &[usize]) -> String {
 pub(super) fn contextual(robot: &Robot) -> OwnedNet {
     let doc = "Contextual supervisor: what a report means where the robot is.";
     let mut net = Draft::new("contextual", doc);
-    net.place("Ready", 1, "It decides at once.");
+    net.place("Ready", 1, "Decides at once.");
     let all: Vec<_> =
         parts(robot, Mode::Autonomous).into_iter().chain(parts(robot, Mode::Operator)).collect();
     for it in &all {
@@ -350,7 +350,7 @@ pub(super) fn contextual(robot: &Robot) -> OwnedNet {
 
 /// The surroundings of the supervisors: whatever can fail does, at any time, again and again.
 pub(super) fn faults(robot: &Robot) -> OwnedNet {
-    let mut net = Draft::new("faults", "Whatever can fail, at any time.");
+    let mut net = Draft::new("faults", "All failures, at any time.");
     net.place("Ready", 1, "Anything may fail.");
     for it in &robot.losses.reports {
         let name = word(&it.name);
@@ -366,8 +366,8 @@ pub(super) fn faults(robot: &Robot) -> OwnedNet {
 /// time.
 pub(super) fn operator(robot: &Robot) -> OwnedNet {
     let all = parts(robot, Mode::Operator);
-    let mut net = Draft::new("operator", "The operator, whatever he does.");
-    net.place("Ready", 1, "Whatever he does.");
+    let mut net = Draft::new("operator", "The operator: may do anything, at any time.");
+    net.place("Ready", 1, "May do anything.");
     net.shared("waits");
     for it in &all {
         net.shared(&format!("in_{}", it.name));

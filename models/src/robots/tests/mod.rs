@@ -79,11 +79,22 @@ fn the_contextual_net_decides_as_the_function_in_every_situation() {
 }
 
 #[test]
-fn no_event_of_any_net_has_two_answers() {
+fn the_nets_of_a_shipped_robot_fit_together() {
     for it in EMBEDDED {
         let robot = Robot::parse(it.name, it.text).unwrap();
         system(&robot).with(|system| assert_eq!(system.defect(), None));
     }
+}
+
+#[test]
+fn losses_that_begin_with_the_same_part_have_names_of_their_own() {
+    let shifts = "flags = [\"load_shift\"]\n";
+    let takes = format!("{shifts}loses = [\"drives\", \"lift\"]\n");
+    let text = EMBEDDED[1].text.replace(shifts, &takes);
+    let robot = Robot::parse("transport", &text).unwrap();
+    let names: Vec<_> = robot.losses.losses.iter().map(|it| it.name.as_str()).collect();
+    assert_eq!(names[4..7], ["drives", "lift", "drives_LOD1"]);
+    system(&robot).with(|system| assert_eq!(system.defect(), None));
 }
 
 /// A loss of the delivery as its supervisors tell losses apart, and the same of its file.

@@ -171,7 +171,7 @@ fn spread(known: &Known, held: &Held) -> Vec<(i64, i64)> {
 /// and each takes one.
 ///
 /// # Errors
-/// Those of the step; and when there are more than [`MOST_TRANSITIONS`] paths.
+/// The errors of the step; and more than [`MOST_TRANSITIONS`] paths.
 pub(super) fn branches<'k, T>(
     known: &'k Known,
     held: &Held,
