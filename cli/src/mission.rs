@@ -8,6 +8,7 @@ use crate::names::{is_name, near};
 use cotama_campaign::subject::Subject;
 use cotama_core::hardware::Equipment;
 use cotama_models::missions::{Definition, Mission, PlannedFor, embedded};
+use cotama_models::robots::{self, RobotFile};
 use cotama_sim::options::{By, Planner};
 use std::path::Path;
 
@@ -16,6 +17,11 @@ const STANDARD_INPUT: &str = "standard input";
 
 /// The mission of this name, or of the file at this path.
 pub(crate) fn load(name: &str) -> Result<Mission, Failure> {
+    loaded(name, None)
+}
+
+/// The same; `supervised` is the robot whose supervisors are to decide.
+fn loaded(name: &str, supervised: Option<&str>) -> Result<Mission, Failure> {
     let text = match embedded::mission(name) {
         Some(known) => known.text.to_owned(),
         None if is_name(name) && !Path::new(name).exists() => {
@@ -24,7 +30,51 @@ pub(crate) fn load(name: &str) -> Result<Mission, Failure> {
         None => kind::text(name, "a mission file", input::MISSION_BYTES, &[Kind::Mission])?,
     };
     let source = if name == "-" { STANDARD_INPUT } else { name };
-    Ok(Mission::parse(source, &text)?)
+    let robot = match (supervised, Mission::robot_of(&text)) {
+        (Some(_), Some(_)) => {
+            let message = format!("--supervised: `{name}` names its robot itself");
+            return Err(Failure::new(message).help("leave --supervised out"));
+        }
+        (Some(""), None) => Some(robot(robot_for(name)?, None)?),
+        (Some(other), None) => Some(robot(other, None)?),
+        (None, Some(of)) if !is_missing(&of, source) => Some(robot(&of, Path::new(source).parent())?),
+        (None, _) => None,
+    };
+    Ok(Mission::parse_under(source, &text, robot)?)
+}
+
+/// Whether a mission names a robot that is neither shipped nor a file beside it: the reader says
+/// where.
+fn is_missing(of: &str, mission: &str) -> bool {
+    let folder = Path::new(mission).parent();
+    robots::embedded(of).is_none() && !folder.is_some_and(|it| it.join(of).exists())
+}
+
+/// The robot that is meant where a mission is to be supervised, and none is named.
+fn robot_for(mission: &str) -> Result<&'static str, Failure> {
+    match mission {
+        "patrol" => Ok("p3dx-patrol"),
+        _ => Err(Failure::new("--supervised: which robot?")
+            .help("name one: `--supervised transport`, or the path of a file")),
+    }
+}
+
+/// The robot of this name, or of the file at this path, which may be relative to a folder.
+fn robot(name: &str, folder: Option<&Path>) -> Result<RobotFile, Failure> {
+    if let Some(it) = RobotFile::shipped(name) {
+        return Ok(it);
+    }
+    let path = folder.map_or_else(|| name.to_owned(), |it| it.join(name).display().to_string());
+    if !Path::new(&path).exists() {
+        let names: Vec<_> = robots::EMBEDDED.iter().map(|it| it.name).collect();
+        let guess = near(name, names.iter().copied())
+            .map_or_else(String::new, |known| format!("; did you mean `{known}`?"));
+        let message = format!("there is no robot `{name}`, and no file of this name{guess}");
+        let help = format!("robots that come with the program: {}", names.join(", "));
+        return Err(Failure::new(message).help(help));
+    }
+    let text = kind::text(&path, "a robot's file", input::MISSION_BYTES, &[Kind::Robot])?;
+    Ok(RobotFile::parse(&path, &text)?)
 }
 
 /// A subject of a campaign whose failures name this source, if it can be read again.
@@ -34,7 +84,7 @@ pub(crate) fn named<'m>(subject: Subject<'m>, source: &str) -> Subject<'m> {
 
 /// The mission for a plan or a run, with the limits of the command line.
 pub(crate) fn load_for(name: &str, planning: &Planning) -> Result<Mission, Failure> {
-    let mission = load(name)?;
+    let mission = loaded(name, planning.supervised.as_deref())?;
     let limits = [planning.duration_limit, planning.energy_limit];
     if limits == [None, None] { Ok(mission) } else { Ok(mission.with_limits(limits)?) }
 }

@@ -29,7 +29,7 @@ pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
     if args.json.json {
         Screen::json(&answer)?;
     } else {
-        let supervised = mission.supervisor().is_some();
+        let supervised = mission.is_supervised();
         let next = Words::of_plan(args).after_plan(&answer, args.planning.steps, supervised);
         screen.print(&render::plan::screen(&answer, next, screen.width()))?;
     }

@@ -49,13 +49,13 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
     if let Some(note) = planned_otherwise(args, &options, &mission) {
         screen.note(&note);
     }
-    match (mission.supervisor(), passed_over(&options.faults, &mission)) {
+    match (mission.is_supervised(), passed_over(&options.faults, &mission)) {
         (_, 0) => {}
-        (None, number) => screen.note(&format!(
+        (false, number) => screen.note(&format!(
             "not simulated: {} for supervisors; the mission is run by its plans alone",
             count(number as u64, "event")
         )),
-        (Some(_), number) => screen.note(&format!(
+        (true, number) => screen.note(&format!(
             "not simulated: {} that only plans know; the mission is run by its supervisors",
             count(number as u64, "fault")
         )),
@@ -140,7 +140,9 @@ pub(crate) fn ended(run: &Run) -> Exit {
 pub(crate) fn refused(error: RecordError) -> Failure {
     match error {
         RecordError::Text(errors) => errors.into(),
-        RecordError::Setup(_) | RecordError::Unsupervised(_) => Failure::new(error.to_string()),
+        RecordError::Setup(_) | RecordError::Unsupervised(_) | RecordError::Undriven(_) => {
+            Failure::new(error.to_string())
+        }
         RecordError::Infeasible { .. } => Failure::new(error.to_string())
             .help("`cotama plan MISSION` says what weighs most, and what would help"),
     }
@@ -187,7 +189,7 @@ fn never_left(
 }
 
 fn options(args: &RunArgs, mission: &Mission) -> Result<Options, Failure> {
-    if mission.supervisor().is_some() && (args.upward || !args.planning.lost.is_empty()) {
+    if mission.is_supervised() && (args.upward || !args.planning.lost.is_empty()) {
         let message = "--upward and --lost are for missions without supervisors";
         return Err(
             Failure::new(message).help("name a failure in a file of faults: kind = \"failure\"")
@@ -241,9 +243,9 @@ fn passed_over(faults: &FaultChoice, mission: &Mission) -> usize {
         FaultChoice::Script => &mission.run.faults,
         FaultChoice::Given { faults, .. } => faults,
     };
-    match mission.supervisor() {
-        None => faults.incidents.len(),
-        Some(_) => faults.power_errors.len() + faults.events.len() + faults.random.len(),
+    match mission.is_supervised() {
+        false => faults.incidents.len(),
+        true => faults.power_errors.len() + faults.events.len() + faults.random.len(),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use cotama_models::missions::Definition;
 use cotama_models::missions::faults::{EventKind, FORMAT, Faults, IncidentKind, Moment};
+use cotama_models::robots;
 use std::fmt::Write;
 
 /// The text of a `panorama-faults/1` file with these faults.
@@ -63,12 +64,64 @@ pub fn faults_text(faults: &Faults, mission: &Definition) -> String {
             }
         };
     }
+    for incident in &faults.of_robot {
+        text.push_str("\n[[event]]\n");
+        of_robot(&mut text, incident, mission);
+    }
     for random in &faults.random {
         let _ =
             writeln!(text, "\n[[random]]\nname = \"{}\"\nper_km = {}", random.name, random.per_km);
         kind(&mut text, random.kind, mission);
     }
     text
+}
+
+/// An incident of a robot that has a file of its own. A number that it does not have is an empty
+/// name, which no reader accepts.
+fn of_robot(text: &mut String, incident: &robots::Incident, mission: &Definition) {
+    let robot = mission.under.as_ref().map(|it| it.file.robot());
+    let part = |it: usize| {
+        let of = robot.and_then(|robot| robot.sub_objectives.get(it));
+        of.map_or("", |it| it.name.as_str())
+    };
+    let failure = |it: usize| {
+        let of = robot.and_then(|robot| robot.failures.get(it));
+        of.map_or("", |it| it.id.as_str())
+    };
+    let moment = |text: &mut String, before: &str, when: robots::Moment| {
+        let _ = match when {
+            robots::Moment::Place(x) => writeln!(text, "{before}x_mm = {}", x.0),
+            robots::Moment::At(time) => writeln!(text, "{before}t_ms = {}", time.0),
+            robots::Moment::During(it, after) => {
+                let of = part(it);
+                writeln!(text, "{before}during = \"{of}\"\n{before}after_ms = {}", after.0)
+            }
+            robots::Moment::Waiting(after) => {
+                writeln!(text, "{before}during = \"Waits\"\n{before}after_ms = {}", after.0)
+            }
+        };
+    };
+    moment(text, "", incident.when);
+    let _ = match &incident.kind {
+        robots::IncidentKind::Failure { failure: it, until } => {
+            let _ = writeln!(text, "kind = \"failure\"\nmode = \"{}\"", failure(*it));
+            until.iter().for_each(|it| moment(text, "until_", *it));
+            Ok(())
+        }
+        robots::IncidentKind::Repair(it) => {
+            writeln!(text, "kind = \"repair\"\nmode = \"{}\"", failure(*it))
+        }
+        robots::IncidentKind::Operator { answers, delay } => {
+            let name = |it: &robots::Answer| match it {
+                robots::Answer::Chooses(it) => part(*it),
+                robots::Answer::Done => "done",
+                robots::Answer::GivesUp => "give_up",
+            };
+            let answers: Vec<_> = answers.iter().map(|it| format!("\"{}\"", name(it))).collect();
+            let answers = answers.join(", ");
+            writeln!(text, "kind = \"operator\"\nanswers = [{answers}]\ndelay_ms = {}", delay.0)
+        }
+    };
 }
 
 /// When something begins, or ends: keys with this in front.

@@ -158,6 +158,8 @@ pub enum PlanCause {
     Lost(Part),
     /// The part is known to be sound again.
     Back(Part),
+    /// A failure of a robot's file, by its number, took something that the plan needs.
+    Failure(usize),
     /// The margins leave room for a better plan.
     Room,
 }
@@ -208,9 +210,16 @@ impl PlanCause {
             }
             Self::Lost(part) => format!("{} lost", part.name()),
             Self::Back(part) => format!("{} back", part.name()),
+            Self::Failure(it) => failure(mission, it),
             Self::Room => "room for a better plan".into(),
         }
     }
+}
+
+/// A failure of the robot of a mission in words: `no scan (LID1)`.
+fn failure(mission: &Mission, number: usize) -> String {
+    let row = mission.robot().and_then(|it| it.robot().failures.get(number));
+    row.map_or_else(|| "a failure".to_owned(), |it| format!("{} ({})", it.mode, it.id))
 }
 
 /// Why a mission is not completed.
@@ -233,6 +242,11 @@ pub enum Reason {
     GivenUp {
         /// The failure that it goes back to; none for the operator's own decision.
         failure: Option<FailureMode>,
+    },
+    /// The same, for a failure of a robot's file, by its number.
+    EndedBy {
+        /// Number of the failure.
+        failure: usize,
     },
     /// The laptop is down: the micro-controller has stopped the robot.
     Mindless,
@@ -316,6 +330,9 @@ impl Reason {
             }
             Self::GivenUp { failure: None } => {
                 "the operator gave up, and the global supervisor ended the mission".into()
+            }
+            Self::EndedBy { failure: it } => {
+                format!("the global supervisor ended the mission: {}", failure(mission, it))
             }
             Self::Mindless => "the laptop is down; the micro-controller stopped the motors".into(),
             Self::TooLong => format!("not done after {} s", LONGEST.0 / 1000),

@@ -68,12 +68,24 @@ pub struct Header {
     pub mission_source: String,
     /// The whole text of the mission file.
     pub mission: String,
+    /// The file of the robot whose supervisors decided; none where none did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub robot: Option<RobotText>,
     /// How it was run.
     pub options: RunOptions,
     /// The limits on duration and energy.
     pub limits: Used,
     /// The length of the path, in mm.
     pub path_length_mm: u64,
+}
+
+/// The file of a robot.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RobotText {
+    /// The name of the file.
+    pub source: String,
+    /// The whole text of the file.
+    pub text: String,
 }
 
 /// How a mission was run.

@@ -28,6 +28,9 @@ pub(crate) struct Planning {
     /// An energy limit in place of the mission's own, in mJ
     #[arg(long, value_name = "mJ", value_parser = energy)]
     pub(crate) energy_limit: Option<u64>,
+    /// A plain mission under the supervisors of a robot: its name, or its file [`patrol` has one]
+    #[arg(long, value_name = "ROBOT", num_args = 0..=1, default_missing_value = "")]
+    pub(crate) supervised: Option<String>,
     /// How closely the robot is modelled
     // Hidden while it has one value.
     #[arg(long, value_enum, value_name = "HOW", default_value_t = Fidelity::Mission, hide = true)]

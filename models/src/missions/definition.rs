@@ -2,6 +2,7 @@
 
 use super::diagnostic::Spanned;
 use super::faults::Run;
+use super::under::Under;
 use crate::cotama::Configuration;
 use cotama_core::hardware::Equipment;
 use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
@@ -315,6 +316,9 @@ pub struct Definition {
     pub supervision: Option<Supervision>,
     /// Whether its supervisors use again what [returns](crate::cotama::recovering).
     pub recovery: bool,
+    /// The robot from a file whose supervisors decide while the mission runs; `None` for a plain
+    /// mission, and for one that `supervision` decides.
+    pub under: Option<Under>,
     /// How the mission is run by a simulator.
     pub run: Run,
 }

@@ -11,7 +11,7 @@ pub struct Embedded {
     pub text: &'static str,
 }
 
-const MISSIONS: [Embedded; 2] = [
+const MISSIONS: [Embedded; 3] = [
     Embedded {
         name: "patrol",
         description: "Patrol of Lambert et al. 2024: 187 m through two halls, two valves to \
@@ -24,6 +24,12 @@ const MISSIONS: [Embedded; 2] = [
                       deliver it; supervised by COTAMA",
         text: include_str!("../../missions/delivery.toml"),
     },
+    Embedded {
+        name: "shift",
+        description: "a shift of the transport robot: to the rack, to the packing station, and \
+                      back, under the supervisors of its file",
+        text: include_str!("../../missions/shift.toml"),
+    },
 ];
 
 /// All missions that come with the program.
@@ -31,7 +37,7 @@ const MISSIONS: [Embedded; 2] = [
 /// ```
 /// use cotama_models::missions::embedded;
 /// let names: Vec<_> = embedded::embedded().iter().map(|it| it.name).collect();
-/// assert_eq!(names, ["patrol", "delivery"]);
+/// assert_eq!(names, ["patrol", "delivery", "shift"]);
 /// ```
 pub fn embedded() -> &'static [Embedded] {
     &MISSIONS

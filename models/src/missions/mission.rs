@@ -44,11 +44,16 @@ use super::faults::Moment;
 use super::reader::{self, Sink};
 use super::scenario::{Constraint, Scenario};
 use super::supervised;
+use super::under::{self, Under};
+use crate::robots::{self, RobotFile};
 use cotama_core::net::owned::OwnedNet;
 use std::ops::Deref;
 
 /// The format that a mission file must name.
 pub const FORMAT: &str = "panorama-mission/1";
+
+/// The format of missions of a robot that has a file of its own.
+pub const FORMAT_2: &str = "panorama-mission/2";
 
 /// A mission: its file, and the [`Unfolded`] definition that the file says.
 ///
@@ -106,9 +111,44 @@ impl Mission {
     /// # Errors
     /// All errors of the file, with their places.
     pub fn parse(source_name: &str, text: &str) -> Result<Self, MissionErrors> {
+        let robot = Self::robot_of(text).and_then(|it| RobotFile::shipped(&it));
+        Self::parse_under(source_name, text, robot)
+    }
+
+    /// Returns the name of the robot that a file of [`FORMAT_2`] names.
+    pub fn robot_of(text: &str) -> Option<String> {
+        under::named(text)
+    }
+
+    /// Reads a mission file whose robot was read before: the one that a file of [`FORMAT_2`] names,
+    /// or one whose supervisors are to decide in a plain mission of [`FORMAT`].
+    ///
+    /// # Errors
+    /// All errors of the file, with their places; for a plain mission also that it is not plain.
+    ///
+    /// ```
+    /// use cotama_models::missions::{Mission, embedded};
+    /// use cotama_models::robots::RobotFile;
+    /// let patrol = embedded::mission("patrol").unwrap();
+    /// let robot = RobotFile::shipped("transport");
+    /// let mission = Mission::parse_under(patrol.name, patrol.text, robot).unwrap();
+    /// assert_eq!(mission.robot().unwrap().robot().name, "transport");
+    /// assert!(mission.is_supervised());
+    /// ```
+    pub fn parse_under(
+        source_name: &str,
+        text: &str,
+        robot: Option<RobotFile>,
+    ) -> Result<Self, MissionErrors> {
         let sink = Sink::default();
-        let definition =
-            reader::document(text, &sink, FORMAT, reader::definition).filter(|_| sink.is_empty());
+        let definition = if under::is_second(text) {
+            let robot = robot.as_ref();
+            reader::document(text, &sink, FORMAT_2, |root| reader::definition_of(root, robot))
+        } else {
+            let plain = reader::document(text, &sink, FORMAT, reader::definition);
+            plain.and_then(|it| Under::given(it, robot, &sink))
+        };
+        let definition = definition.filter(|_| sink.is_empty());
         let mut errors = sink.into_diagnostics();
         if let Some(definition) = definition {
             match Unfolded::checked(definition) {
@@ -148,7 +188,7 @@ impl Mission {
     /// ```
     pub fn with_limits(&self, limits: [Option<u64>; 2]) -> Result<Self, MissionErrors> {
         let text = reader::with_limits(&self.text, limits);
-        Self::parse(&self.source, &text)
+        Self::parse_under(&self.source, &text, self.robot().cloned())
     }
 }
 
@@ -174,6 +214,16 @@ impl Unfolded {
     /// ```
     pub fn supervisor(&self) -> Option<&OwnedNet> {
         self.supervisor.as_ref()
+    }
+
+    /// The robot from a file whose supervisors decide, if it is one.
+    pub fn robot(&self) -> Option<&RobotFile> {
+        self.definition.under.as_ref().map(|it| &it.file)
+    }
+
+    /// Whether supervisors decide while it runs.
+    pub fn is_supervised(&self) -> bool {
+        self.supervisor.is_some() || self.definition.under.is_some()
     }
 
     /// The activities and their alternatives.
@@ -222,6 +272,8 @@ impl Unfolded {
             let end = definition.path_length;
             let on_path = |when| !matches!(when, Moment::Place(x) if x > end);
             definition.run.faults.incidents.retain(|incident| on_path(incident.when));
+            let on_path = |when| !matches!(when, robots::Moment::Place(x) if x > end);
+            definition.run.faults.of_robot.retain(|incident| on_path(incident.when));
         } else {
             definition.objectives.remove(objective);
         }

@@ -33,6 +33,8 @@ mod rust_source;
 mod scenario;
 #[cfg(feature = "std")]
 mod supervised;
+#[cfg(feature = "std")]
+mod under;
 
 #[cfg(feature = "std")]
 pub use definition::{
@@ -42,7 +44,7 @@ pub use definition::{
 #[cfg(feature = "std")]
 pub use diagnostic::{Diagnostic, MAX_DIAGNOSTICS, MissionErrors, Position, Spanned, told_with};
 #[cfg(feature = "std")]
-pub use mission::{FORMAT, Mission, Unfolded};
+pub use mission::{FORMAT, FORMAT_2, Mission, Unfolded};
 #[cfg(feature = "std")]
 pub use remaining::Remaining;
 #[cfg(feature = "std")]
@@ -52,3 +54,5 @@ pub use scenario::{
 };
 #[cfg(feature = "std")]
 pub use supervised::MAX_SUPERVISED_OBJECTIVES;
+#[cfg(feature = "std")]
+pub use under::Under;

@@ -19,10 +19,12 @@ pub(super) fn supervisor(
     definition: &Definition,
     scenario: &Scenario,
 ) -> Result<Option<OwnedNet>, Vec<Diagnostic>> {
-    if definition.supervision.is_none() {
-        return Ok(None);
-    }
     let objectives = &definition.objectives;
+    if definition.supervision.is_none() {
+        let by_robot = definition.under.is_some();
+        let errors = if by_robot { object(objectives) } else { Vec::new() };
+        return if errors.is_empty() { Ok(None) } else { Err(errors) };
+    }
     if let Some(one_too_many) = objectives.get(MAX_OBJECTIVES) {
         let message = format!("a supervised mission has at most {MAX_OBJECTIVES} objectives");
         let help = "leave some out, or make two missions";

@@ -56,23 +56,32 @@
 //! ```
 
 mod decision;
+mod diagnosis;
 mod embedded;
+mod file;
+mod level;
 mod losses;
 mod reached;
 mod reader;
 pub mod requirements;
+mod script;
 mod sound;
 pub mod supervisors;
 #[cfg(test)]
 mod tests;
 
 pub use decision::{Decision, Situation, Where, decide};
+pub use diagnosis::diagnose;
 pub use embedded::{EMBEDDED, EmbeddedRobot, embedded};
+pub use file::RobotFile;
+pub use level::{Fired, Global, Level, Told};
 pub use losses::{Loss, Losses, Report};
 pub use reader::FORMAT;
+pub use script::{Answer, Incident, IncidentKind, Moment};
 
 use crate::cotama::{Persistence, Severity};
-use cotama_core::units::{Micros, MillimetresPerSecond, Millis};
+use crate::missions::MotionPower;
+use cotama_core::units::{Micros, MillimetresPerSecond, Millis, Milliwatts};
 
 /// The most kinds of hardware, and the most modules.
 pub const MAX_PARTS: usize = 64;
@@ -92,6 +101,8 @@ pub struct Robot {
     pub name: String,
     /// The robot in a few words; may be empty.
     pub title: String,
+    /// The body, without which no mission runs.
+    pub body: Option<Body>,
     /// Hardware on which modules stand.
     pub hardware: Vec<Hardware>,
     /// Programs that sense, compute and act.
@@ -108,6 +119,42 @@ pub struct Robot {
     pub failures: Vec<Failure>,
     /// Reports of failures, and the losses that differ.
     pub losses: Losses,
+}
+
+/// The body of a robot.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Body {
+    /// The fastest that it can go.
+    pub speed_max: MillimetresPerSecond,
+    /// How fast it speeds up and slows down, in mm/s².
+    pub acceleration: u64,
+    /// The power of motion.
+    pub motion_power: MotionPower,
+    /// Mass, in grams, and the energy in mJ below which an impact must stay; `None` where no impact
+    /// is limited.
+    pub impact: Option<(u64, u64)>,
+    /// Source of what is said of it; may be empty.
+    pub source: String,
+}
+
+/// The effect of a failure on motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Motion {
+    /// No effect.
+    #[default]
+    Free,
+    /// The robot gets no further along its path, though it moves.
+    Blocked,
+    /// The robot goes at this speed, in thousandths of the commanded one.
+    Slowed(u16),
+    /// The robot goes at full speed, whatever it is told, until motor power is cut.
+    Runaway,
+    /// Motors are without power: it stands.
+    Dead,
+    /// No command arrives: the micro-controller stops the motors by itself after two seconds.
+    Silent,
+    /// The same, since the laptop is down: nothing is observed or decided any more.
+    Mindless,
 }
 
 /// A set of hardware and modules, a bit each by number.
@@ -128,6 +175,10 @@ pub struct Hardware {
     pub title: String,
     /// How many of it there are.
     pub units: u8,
+    /// The power of all units together.
+    pub power: Milliwatts,
+    /// The hardware of missions that it is a unit of; its own name where nothing else is said.
+    pub kind: String,
     /// Source of what is said of it; may be empty.
     pub source: String,
 }
@@ -149,6 +200,8 @@ pub struct Module {
     pub deadline: Option<Millis>,
     /// Its worst-case execution time.
     pub cost: Option<Micros>,
+    /// The option of missions that it serves, by its id; may be empty.
+    pub serves: String,
     /// Source of what is said of it; may be empty.
     pub source: String,
 }
@@ -188,6 +241,8 @@ pub struct Configuration {
     pub optional: u64,
     /// The fastest that the robot may go with it.
     pub speed: MillimetresPerSecond,
+    /// How long it takes where the robot stands in it.
+    pub takes: Millis,
     /// Source of what is said of it; may be empty.
     pub source: String,
 }
@@ -236,6 +291,12 @@ pub struct Failure {
     pub latency: Millis,
     /// The parts lost with it.
     pub loses: Parts,
+    /// The effect on motion.
+    pub motion: Motion,
+    /// When it is over by itself; `None` where it is not.
+    pub ends: Option<Millis>,
+    /// Whether it is over when the operator has helped.
+    pub helped: bool,
     /// How often a module is started anew before anything counts as lost.
     pub restarts: Option<Restarts>,
     /// The mean time between two failures, in thousandths of an hour; `None` where nobody knows.

@@ -1,5 +1,6 @@
 //! Reading a robot's file.
 
+mod body;
 mod failures;
 
 use super::losses::{Losses, TooMany};
@@ -11,7 +12,7 @@ use super::{
 use crate::missions::reader::fields::{Fields, Sink, document_of_either};
 use crate::missions::{Diagnostic, MissionErrors, Spanned};
 use crate::names::quoted;
-use cotama_core::units::{Micros, MillimetresPerSecond, Millis};
+use cotama_core::units::{Micros, MillimetresPerSecond, Millis, Milliwatts};
 use std::ops::RangeInclusive;
 
 /// Value of `format` in files of robots.
@@ -22,6 +23,10 @@ const TIMES: RangeInclusive<i64> = 1..=3_600_000;
 const COSTS: RangeInclusive<i64> = 1..=60_000_000;
 /// Speeds in mm/s, up to 10 m/s.
 const SPEEDS: RangeInclusive<i64> = 0..=10_000;
+/// Power in mW, up to 10 kW.
+const POWERS: RangeInclusive<i64> = 0..=10_000_000;
+/// The time of what stands where nothing is said.
+const TAKES: Millis = Millis(1_000);
 /// The most flags of an observer.
 const MAX_FLAGS: usize = 64;
 
@@ -63,6 +68,7 @@ fn robot(mut fields: Fields<'_>) -> Option<Robot> {
     let mut names = Names::default();
     let name = fields.id("name");
     let title = words(&mut fields, "title");
+    let body = fields.optional_table("body").ok().map(|it| it.map(body::body));
     let hardware = named(&mut fields, "hardware", MAX_PARTS);
     names.hardware = hardware.iter().map(|it| it.0.value.clone()).collect();
     let modules = named(&mut fields, "module", MAX_PARTS);
@@ -99,10 +105,15 @@ fn robot(mut fields: Fields<'_>) -> Option<Robot> {
         Some(link) => Some(link?),
         None => None,
     };
+    let body = match body? {
+        Some(body) => Some(body?),
+        None => None,
+    };
     let written: Vec<Written> = configurations.into_iter().collect::<Option<_>>()?;
     let mut robot = Robot {
         name: name?.value,
         title,
+        body,
         hardware: hardware.into_iter().collect::<Option<_>>()?,
         modules: modules.into_iter().collect::<Option<_>>()?,
         sub_objectives: Vec::new(),
@@ -162,9 +173,18 @@ fn hardware((name, fields): Named<'_>) -> Option<Hardware> {
     let mut fields = fields?;
     let title = words(&mut fields, "title");
     let units = fields.optional_integer("units", 1..=255);
+    let power = fields.optional_integer("power_mw", POWERS);
+    let kind = words(&mut fields, "kind");
     let source = words(&mut fields, "source");
     fields.finish();
-    Some(Hardware { name: name.value, title, units: units.ok()?.unwrap_or(1), source })
+    Some(Hardware {
+        kind: if kind.is_empty() { name.value.clone() } else { kind },
+        name: name.value,
+        title,
+        units: units.ok()?.unwrap_or(1),
+        power: Milliwatts(power.ok()?.unwrap_or(0)),
+        source,
+    })
 }
 
 /// The position of a name among hardware and modules.
@@ -210,6 +230,7 @@ fn module((name, fields): Named<'_>, names: &Names) -> Option<Module> {
     let period = fields.optional_integer("period_ms", TIMES);
     let deadline = fields.optional_integer("deadline_ms", TIMES);
     let cost = fields.optional_integer("cost_us", COSTS);
+    let serves = words(&mut fields, "serves");
     let source = words(&mut fields, "source");
     let (deadline, period) = (deadline.ok()?.map(Millis), period.ok()?.map(Millis));
     let cost = cost.ok()?.map(Micros);
@@ -227,6 +248,7 @@ fn module((name, fields): Named<'_>, names: &Names) -> Option<Module> {
         period,
         deadline: deadline.or(period),
         cost,
+        serves,
         source,
     })
 }
@@ -279,6 +301,7 @@ fn configuration(mut fields: Fields<'_>, names: &mut Names) -> Option<Written> {
     let required = fields.texts("required").and_then(|all| modules(&fields, &all, names));
     let optional = optional_modules(&mut fields, "optional", names);
     let speed = fields.optional_integer("speed_mm_s", SPEEDS);
+    let takes = fields.optional_integer("takes_ms", TIMES);
     let source = words(&mut fields, "source");
     fields.finish();
     let mode = if mode? == "operator" { Mode::Operator } else { Mode::Autonomous };
@@ -289,6 +312,7 @@ fn configuration(mut fields: Fields<'_>, names: &mut Names) -> Option<Written> {
             required: required?,
             optional: optional?,
             speed: MillimetresPerSecond(speed.ok()?.unwrap_or(0)),
+            takes: takes.ok()?.map_or(TAKES, Millis),
             source,
         },
         sub_objective: sub_objective?,

@@ -1,20 +1,34 @@
 //! The robot at mission fidelity: how far along the path, and how fast.
 //!
-//! Speeds up and slows down by [`ACCELERATION`]; within a step the speed changes evenly. Lengths
-//! are µm, so that a step of a whole number of ms rounds nothing but the half of an odd sum of
-//! speeds.
+//! Within a step the speed changes evenly. Lengths are µm, so that a step of a whole number of ms
+//! rounds nothing but the half of an odd sum of speeds.
 
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::ACCELERATION;
 
 /// The robot on its path: its position and its speed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Drive {
     x_um: u64,
     speed_mm_s: u64,
+    /// In mm/s².
+    acceleration: u64,
+}
+
+impl Default for Drive {
+    /// The Pioneer of the delivery.
+    fn default() -> Self {
+        Self::new(ACCELERATION)
+    }
 }
 
 impl Drive {
+    /// A robot that stands at the start of its path, and speeds up and slows down by so many mm/s².
+    pub const fn new(acceleration: u64) -> Self {
+        debug_assert!(acceleration > 0, "who never brakes has no braking distance");
+        Self { x_um: 0, speed_mm_s: 0, acceleration }
+    }
+
     /// Returns the position.
     pub const fn x(&self) -> Millimetres {
         Millimetres(self.x_um / 1000)
@@ -27,7 +41,7 @@ impl Drive {
 
     /// Goes on for a time towards a speed, no further than an end: there it stands.
     pub fn go(&mut self, towards: MillimetresPerSecond, end: Millimetres, time: Millis) {
-        let change = ACCELERATION.saturating_mul(time.0) / 1000;
+        let change = self.acceleration.saturating_mul(time.0) / 1000;
         let least = self.speed_mm_s.saturating_sub(change);
         let most = self.speed_mm_s.saturating_add(change);
         let after = towards.0.clamp(least, most);
@@ -68,7 +82,7 @@ impl Drive {
 
     /// How far it would still go if it braked now.
     pub const fn braking_distance(&self) -> Millimetres {
-        Millimetres(self.speed_mm_s * self.speed_mm_s / (2 * ACCELERATION))
+        Millimetres(self.speed_mm_s * self.speed_mm_s / (2 * self.acceleration))
     }
 }
 

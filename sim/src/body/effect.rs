@@ -6,24 +6,7 @@ use cotama_models::cotama::{
     Configuration, FailureMode, Flag, Flags, Module, Modules, Situation, local,
 };
 
-/// The effect of a failure on motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motion {
-    /// No effect.
-    Free,
-    /// The robot gets no further along its path, though it moves.
-    Blocked,
-    /// The robot goes at this speed, in thousandths of the commanded one.
-    Slowed(u16),
-    /// The robot goes at full speed, whatever it is told, until motor power is cut.
-    Runaway,
-    /// Motors are without power: it stands.
-    Dead,
-    /// No command arrives: the micro-controller stops the motors by itself after two seconds.
-    Silent,
-    /// The same, since the laptop is down: nothing is observed or decided any more.
-    Mindless,
-}
+pub use cotama_models::robots::Motion;
 
 /// How long the micro-controller waits for a command (Pioneer 3-DX).
 pub(crate) const FIRMWARE_WATCHDOG: Millis = Millis(2_000);

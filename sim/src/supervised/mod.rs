@@ -14,7 +14,6 @@
 mod conduct;
 mod monitor;
 pub mod operator;
-mod plan;
 mod planted;
 mod script;
 pub mod story;

@@ -202,14 +202,14 @@ impl<'t> Story<'t> {
                 }
             }
             Record::Fired(it) => {
-                if it.place == "HandOver" {
+                if it.place == "HandOver" || it.net == "ls" && it.place == "Waits" {
                     self.belongs();
                     self.asked = it.cause;
                     if let Some(chain) = it.cause.and_then(|it| self.chain(it)) {
                         chain.asked_us = Some(it.t_us);
                     }
                 }
-                let acts = ["gs", "ls", "pf", "to"].contains(&it.net.as_str());
+                let acts = !["gom", "cs", "permit"].contains(&it.net.as_str());
                 if let Some(chain) = it.cause.filter(|_| acts).and_then(|it| self.chain(it))
                     && chain.reaction.first().is_none_or(|first| first.t_us == it.t_us)
                 {
@@ -278,6 +278,9 @@ impl Point<'_> {
             }
             What::Failure(chain) => {
                 let mode = &chain.failure.mode;
+                if let Some(what) = &chain.failure.what {
+                    return format!("{mode}: {what}");
+                }
                 FailureMode::named(mode).map_or_else(
                     || mode.clone(),
                     |it| {
@@ -289,7 +292,7 @@ impl Point<'_> {
                     },
                 )
             }
-            What::Operator(answer) => said(answer).into(),
+            What::Operator(answer) => said(answer),
         }
     }
 
@@ -320,7 +323,8 @@ impl Point<'_> {
                 Some("adapt_minor" | "adapt_minor_teleoperation") => {
                     "the adapter changes a setting"
                 }
-                _ => "the adapter does without sonars",
+                Some("adapt_sonar") => "the adapter does without sonars",
+                _ => "the adapter takes another set of modules",
             },
             Class::Local => "the operator is asked",
             Class::Global => "the mission is ended safely",
@@ -354,7 +358,7 @@ impl Point<'_> {
         let later = chain.asked_us.filter(|&it| it > first.t_us);
         let asked =
             later.map_or_else(String::new, |it| format!("; it asks after {}", self.since(it)));
-        let said: String = chain.operator.iter().flat_map(|it| ["; ", said(answer(it))]).collect();
+        let said: String = chain.operator.iter().map(|it| format!("; {}", said(answer(it)))).collect();
         Some(format!(
             "after {}, {}: {runs}{again}{asked}{said}",
             self.since(first.t_us),
@@ -413,14 +417,22 @@ fn answer(told: &Told) -> &str {
 }
 
 /// Returns the action of the operator, in words.
-fn said(answer: &str) -> &str {
-    match answer {
+fn said(answer: &str) -> String {
+    let known = match answer {
         "teleoperate" => "the operator drives",
         "teleprogram" => "the operator edits the path",
         "waypoints" => "the operator gives way-points",
         "new_path" => "the operator gives a path",
         "arrived" => "the operator has reached the goal",
         "gives_up" => "the operator gives up, or is silent",
-        other => other,
-    }
+        other => {
+            let (chosen, done) = (other.strip_prefix("choose_"), other.strip_prefix("finish_"));
+            return match (chosen, done) {
+                (Some(it), _) => format!("the operator chooses {it}"),
+                (_, Some(it)) => format!("the operator is done with {it}"),
+                _ => other.to_owned(),
+            };
+        }
+    };
+    known.to_owned()
 }

@@ -7,16 +7,19 @@
 
 use super::monitor::Watching;
 use super::operator::Operator;
-use super::plan::{Planning, Progress};
 use super::{Conduct, Fired, Injection, Run, Script, Supervised, When, shipped};
 use crate::body::{PERIOD, Planted, Robot, Watch};
 use crate::options::Planner;
+use crate::plan::{Planning, Progress};
 use crate::run::{LONGEST, NoPlan, Outcome, PlanCause};
 use cotama_core::net::Net;
 use cotama_core::player::Program;
 use cotama_core::system::System;
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::{Decider, DecisionalLevel, Flags, Modules, local, recovering};
+use cotama_core::hardware::Equipment;
+use cotama_models::cotama::{
+    Configuration, Decider, DecisionalLevel, Flags, Module, Modules, local, recovering,
+};
 use cotama_models::missions::Mission;
 use cotama_models::missions::faults::Act;
 use objective::Objective;
@@ -32,6 +35,17 @@ pub(super) use records::Recorded;
 
 /// No supervisor has an interval, whatever the objectives.
 pub(super) const CLOCKS: usize = recovering::SIZE.clocks;
+
+/// Returns modules as hardware of the mission.
+fn units(mission: &Mission, available: Modules) -> Equipment {
+    let works = |name: &str| available.iter().any(|it| it.name() == name);
+    let kinds = mission.hardware.iter().enumerate();
+    kinds.fold(Equipment::NONE, |all, (kind, it)| {
+        let is_module = Module::ALL.iter().any(|module| module.name() == it.name);
+        let count = if is_module && !works(&it.name) { 0 } else { it.units };
+        all.with(kind, count).unwrap_or(all)
+    })
+}
 
 /// When a transition fired for the first time.
 fn first_fired(fired: &[Fired], act: Act) -> Option<Millis> {
@@ -56,7 +70,7 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     /// When each failure ends, if not by itself.
     until: Vec<Option<When>>,
     operator: Operator,
-    planning: Planning<'m>,
+    planning: Planning<'m, Configuration>,
     /// Since when the global supervisor is where it is, and when each place of the local one was
     /// first reached.
     global_since: Millis,
@@ -85,9 +99,9 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         script: &Script,
         planner: Planner,
     ) -> Result<Self, NoPlan> {
-        let mut planning = Planning::new(mission, planner);
+        let mut planning = Planning::new(mission, planner, |it| it.configuration);
         let start = Progress { activity: 0, rest: None, now: Millis(0), x_mm: 0, used: [0; 2] };
-        planning.plan(PlanCause::Start, start, Modules::ALL)?;
+        planning.plan(PlanCause::Start, start, units(mission, Modules::ALL))?;
         let objectives = mission.objectives.len() as u32;
         let decider = Decider::start(program, objectives, planning.next_drive(0));
         let decider = if mission.recovery { decider.with_returns() } else { decider };

@@ -1,8 +1,11 @@
 //! Recording a run, and running a recorded one again.
 
-use super::{Difference, Header, Record, RunFaults, RunOptions, RunUpward, SCHEMA, Trace};
+use super::{
+    Difference, Header, Record, RobotText, RunFaults, RunOptions, RunUpward, SCHEMA, Trace,
+};
 use crate::faults_text::faults_text;
 use crate::options::{FaultChoice, Options, Planner};
+use crate::robots::{self, Driven, Undriven};
 use crate::run::{NoPlan, Run};
 use crate::setup::{SetupError, Simulation};
 use crate::supervised::{Script, Supervised, Unsupervised};
@@ -10,6 +13,7 @@ use cotama_core::monitor::Upward;
 use cotama_core::units::Millis;
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, MissionErrors};
+use cotama_models::robots::RobotFile;
 use std::fmt;
 
 /// Why a recorded run cannot be made.
@@ -33,6 +37,8 @@ pub enum RecordError {
     Setup(SetupError),
     /// The mission has supervisors that are not simulated.
     Unsupervised(Unsupervised),
+    /// The supervisors of the robot's file are not simulated.
+    Undriven(Undriven),
     /// There is no plan at the start.
     Infeasible {
         /// The reason.
@@ -48,6 +54,7 @@ impl fmt::Display for RecordError {
             Self::Text(errors) => errors.fmt(f),
             Self::Setup(error) => error.fmt(f),
             Self::Unsupervised(error) => error.fmt(f),
+            Self::Undriven(error) => error.fmt(f),
             Self::Infeasible { text, .. } => write!(f, "infeasible from the start: {text}"),
         }
     }
@@ -91,7 +98,9 @@ impl Trace {
     pub fn record(mission: &Mission, options: &Options) -> Result<(Self, Run), RecordError> {
         let period = options.monitor_period.unwrap_or(mission.run.monitor_period);
         let mut records = Vec::new();
-        let run = if mission.supervisor().is_some() {
+        let run = if mission.robot().is_some() {
+            driven(mission, options, period, &mut records)
+        } else if mission.supervisor().is_some() {
             supervised(mission, options, period, &mut records)
         } else {
             let simulation = Simulation::new(mission, options).map_err(RecordError::Setup)?;
@@ -115,6 +124,10 @@ impl Trace {
             version: env!("CARGO_PKG_VERSION").into(),
             mission_source: mission.source().into(),
             mission: mission.text().into(),
+            robot: mission.robot().map(|it| RobotText {
+                source: it.source().into(),
+                text: it.text().into(),
+            }),
             options: RunOptions {
                 seed: options.seed,
                 faults,
@@ -134,7 +147,7 @@ impl Trace {
     /// # Errors
     /// All errors of its text.
     pub fn mission(&self) -> Result<Mission, MissionErrors> {
-        Mission::parse(&self.header.mission_source, &self.header.mission)
+        self.header.mission()
     }
 
     /// The options of this trace, for its mission.
@@ -165,8 +178,40 @@ impl Trace {
     }
 }
 
+impl Header {
+    /// The mission of a trace, under the robot that it names.
+    ///
+    /// # Errors
+    /// All errors of its text, or of the robot's.
+    pub fn mission(&self) -> Result<Mission, MissionErrors> {
+        let robot = self.robot.as_ref().map(|it| RobotFile::parse(&it.source, &it.text));
+        Mission::parse_under(&self.mission_source, &self.mission, robot.transpose()?)
+    }
+}
+
 fn infeasible(mission: &Mission, reason: NoPlan) -> RecordError {
     RecordError::Infeasible { reason, text: reason.text(mission) }
+}
+
+/// Runs a mission under the supervisors of a robot's file.
+fn driven(
+    mission: &Mission,
+    options: &Options,
+    period: Millis,
+    records: &mut Vec<Record>,
+) -> Result<Run, RecordError> {
+    let planner = options.planner.unwrap_or_else(|| Planner::of(mission));
+    let ready = Driven::new(mission).map_err(RecordError::Undriven)?.with_planner(planner);
+    if period.0 == 0 {
+        return Err(RecordError::Setup(SetupError::ZeroPeriod));
+    }
+    let script = match &options.faults {
+        FaultChoice::Script => robots::Script::from(&mission.run.faults),
+        FaultChoice::None => robots::Script::default(),
+        FaultChoice::Given { faults, .. } => robots::Script::from(faults),
+    };
+    let run = ready.run_recorded(&script, period, records);
+    Ok(run.map_err(|reason| infeasible(mission, reason))?.summary(mission))
 }
 
 /// Runs a mission under its supervisors.

@@ -58,6 +58,9 @@ pub struct Failure {
     pub failure: u16,
     /// The row of the FMECA, as `SON1`.
     pub mode: String,
+    /// The same in words, where the row is one of a robot's file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub what: Option<String>,
     /// The place of the local supervisor.
     pub during: String,
 }

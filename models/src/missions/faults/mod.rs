@@ -1,5 +1,6 @@
 //! Faults of a run: the script of a mission file's `[run]`, or of a `panorama-faults/1` file.
 
+use crate::robots;
 use cotama_core::units::{Millimetres, Millis};
 
 mod incidents;
@@ -52,6 +53,8 @@ pub struct Faults {
     /// moment; in files these are events of the kinds `failure`, `repair` and `operator`. A plan,
     /// and a run without supervisors, knows nothing of them.
     pub incidents: Vec<Incident>,
+    /// The same of a mission whose robot has a file of its own.
+    pub of_robot: Vec<robots::Incident>,
 }
 
 /// By how much the real power differs from the modelled one inside a zone, whatever the robot does

@@ -1,6 +1,7 @@
 //! The named entries of a file.
 
 use crate::missions::definition::{Hardware, Zone};
+use crate::robots::Robot;
 use cotama_core::units::Millimetres;
 
 /// A named entry of a file, as far as it could be read.
@@ -29,4 +30,6 @@ pub(super) struct Names<'n> {
     pub(super) hardware: &'n [Entry<Hardware>],
     /// Whether the mission is supervised; `None` when that could not be read.
     pub(super) supervised: Option<bool>,
+    /// The robot from a file whose supervisors decide, if it is one.
+    pub(super) robot: Option<&'n Robot>,
 }

@@ -5,6 +5,7 @@ use super::fields::{self, Fields, Sink};
 use super::incidents;
 use super::moments::{self, on_the_path};
 use super::recorded;
+use super::under;
 use crate::missions::definition::{Definition, Hardware, Zone};
 use crate::missions::diagnostic::{Diagnostic, MissionErrors};
 use crate::missions::faults::{
@@ -13,6 +14,7 @@ use crate::missions::faults::{
 use crate::missions::known::{
     AT_LEAST_ZERO, EVENTS, INCIDENTS, PER_KM, PERIODS, POSITIVE, POWER_ERRORS, RANDOM_EVENTS, UNITS,
 };
+use crate::robots;
 use cotama_core::units::{Millimetres, Millis};
 
 impl Faults {
@@ -63,9 +65,10 @@ impl FaultsFile {
         let zones: Vec<_> = mission.zones.iter().map(zone).collect();
         let kind = |it: &Hardware| Entry { id: it.name.clone(), item: Some(it.clone()) };
         let hardware: Vec<_> = mission.hardware.iter().map(kind).collect();
-        let (path_length, supervised) =
-            (Some(mission.path_length), Some(mission.supervision.is_some()));
-        let names = Names { path_length, zones: &zones, hardware: &hardware, supervised };
+        let robot = mission.under.as_ref().map(|it| it.file.robot());
+        let supervised = Some(mission.supervision.is_some() || robot.is_some());
+        let path_length = Some(mission.path_length);
+        let names = Names { path_length, zones: &zones, hardware: &hardware, supervised, robot };
         let file = fields::document(text, &sink, FORMAT, |mut root| {
             let faults = read(&mut root, &names);
             let planner = root.optional_table("planner").map(|it| it.map(recorded::planner));
@@ -104,16 +107,18 @@ fn read(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Faults> {
             tables.into_iter().map(|table| random_event(table, &mut seen)).collect();
         random.into_iter().collect::<Option<Vec<_>>>()
     });
-    let (mut events, mut incidents) = (Vec::new(), Vec::new());
+    let (mut events, mut incidents, mut of_robot) = (Vec::new(), Vec::new(), Vec::new());
     for happening in events_read?? {
         match happening {
             Scripted::Event(event) => events.push(event),
             Scripted::Incident(incident) => incidents.push(incident),
+            Scripted::OfRobot(incident) => of_robot.push(incident),
         }
     }
     events.sort_by_key(|event| event.x);
     incidents.sort_by_key(|incident| incident.when.key());
-    Some(Faults { power_errors: power_errors?, events, random: random??, incidents })
+    of_robot.sort_by_key(|incident| incident.when);
+    Some(Faults { power_errors: power_errors?, events, random: random??, incidents, of_robot })
 }
 
 fn power_errors(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Vec<PowerError>> {
@@ -160,9 +165,15 @@ fn units(fields: &mut Fields<'_>, key: &'static str, names: &Names<'_>) -> Optio
 enum Scripted {
     Event(Event),
     Incident(Incident),
+    OfRobot(robots::Incident),
 }
 
 fn event(mut fields: Fields<'_>, names: &Names<'_>) -> Option<Scripted> {
+    if let Some(robot) = names.robot
+        && under::is_incident(&fields)
+    {
+        return under::incident(fields, robot, names).map(Scripted::OfRobot);
+    }
     let timed = incidents::is_timed(&fields);
     let x = if timed { None } else { place(&mut fields) };
     let kinds = [&EVENTS[..], &INCIDENTS].concat();

@@ -13,10 +13,70 @@ use crate::missions::known::{
     AT_LEAST_ZERO, ENERGIES, NAME_LENGTHS, NEEDED_UNITS, OBJECTIVES, POSITIVE, QUALITIES,
     ROUNDINGS, SPEEDS, UNITS,
 };
+use crate::missions::under::Under;
 use crate::names::quoted;
+use crate::robots::{EMBEDDED, RobotFile};
 use cotama_core::hardware::{Equipment, MAX_KINDS};
 use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
 use std::ops::Range;
+
+/// Reads the whole file of a mission whose robot has a file of its own: body, hardware and options
+/// of moving are those of the robot.
+pub(in crate::missions) fn definition_of(
+    mut root: Fields<'_>,
+    robot: Option<&RobotFile>,
+) -> Option<Definition> {
+    let name = name(&mut root);
+    let named = root.text("robot");
+    if let (None, Some(named)) = (robot, &named) {
+        let names: Vec<_> = EMBEDDED.iter().map(|it| it.name).collect();
+        root.index_of(named, "robot", names.into_iter());
+    }
+    let of = robot.zip(named).and_then(|(file, named)| Under::of(file, named.span, root.sink()));
+    let supervised = Supervised::by_robot();
+    let path_length = root.integer("path_length_mm", POSITIVE).map(Millimetres);
+    let limits = root.table("limits").and_then(limits);
+    let planned_for = root.optional_table("plan").map(|plan| plan.and_then(planned_for));
+    let of = of?;
+    let entry = |it: &Hardware| Entry { id: it.name.clone(), item: Some(it.clone()) };
+    let hardware: Vec<_> = of.hardware.iter().map(entry).collect();
+    let mut tios: Vec<_> = all(root.tables("tio", false), |it| tio(it, &hardware, &supervised));
+    tios.extend(of.tios.into_iter().map(|it| Entry { id: it.id.clone(), item: Some(it) }));
+    let zones = all(root.tables("zone", false), |table| zone(table, path_length, &hardware, &tios));
+    let objectives =
+        all(root.tables("objective", true), |table| objective(table, &tios, &supervised));
+    one_after_the_other(&root, path_length, &objectives);
+    let names = Names {
+        path_length,
+        zones: &zones,
+        hardware: &hardware,
+        supervised: supervised.known(),
+        robot: robot.map(RobotFile::robot),
+    };
+    let run = root.optional_table("run").ok().and_then(|run| faults::run(run, &names));
+    unique(&root, "option", items(&tios).map(|it| (&it.id, &it.span)));
+    unique(&root, "zone", items(&zones).map(|it| (&it.id, &it.span)));
+    unique(&root, "objective", items(&objectives).map(|it| (&it.id, &it.span)));
+    root.finish();
+    let (limits, order) = limits?;
+    Some(Definition {
+        name: name?,
+        path_length: path_length?,
+        limits,
+        order,
+        planned_for: planned_for.ok()?,
+        robot: of.body,
+        hardware: of.hardware,
+        motion_power: of.motion_power,
+        tios: complete(tios)?,
+        objectives: complete(objectives)?,
+        zones: complete(zones)?,
+        supervision: None,
+        recovery: false,
+        under: Some(of.under),
+        run: run?,
+    })
+}
 
 /// Reads the whole file.
 pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition> {
@@ -38,8 +98,13 @@ pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition
     let objectives =
         all(root.tables("objective", true), |table| objective(table, &tios, &supervised));
     one_after_the_other(&root, path_length, &objectives);
-    let names =
-        Names { path_length, zones: &zones, hardware: &hardware, supervised: supervised.known() };
+    let names = Names {
+        path_length,
+        zones: &zones,
+        hardware: &hardware,
+        supervised: supervised.known(),
+        robot: None,
+    };
     let run = root.optional_table("run").ok().and_then(|run| faults::run(run, &names));
     unique(&root, "option", items(&tios).map(|it| (&it.id, &it.span)));
     unique(&root, "zone", items(&zones).map(|it| (&it.id, &it.span)));
@@ -61,6 +126,7 @@ pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition
         zones: complete(zones)?,
         supervision,
         recovery: recovery.unwrap_or(false),
+        under: None,
         run: run?,
     })
 }
@@ -243,7 +309,18 @@ fn tio(
 ) -> Entry<Tio> {
     let id = fields.id("id");
     let task = fields.text("task").and_then(|name| task(&fields, &name));
-    let needs = needs(&mut fields, hardware);
+    let needs = if supervised.is_by_robot() && !fields.has("needs") {
+        Some(Equipment::NONE)
+    } else {
+        needs(&mut fields, hardware)
+    };
+    if let (true, Some(task @ (Task::Move | Task::Turn | Task::Detect | Task::Localise))) =
+        (supervised.is_by_robot(), task)
+    {
+        let message = format!("`{}` is done by the configurations of the robot", task.name());
+        let it = Diagnostic::new(fields.span_of("task"), message, "not here");
+        fields.report(it.help("leave the option out; `RCV`, `DLV` and `WAI` can stand here"));
+    }
     let speed_max = fields.optional_integer("speed_max_mm_s", SPEEDS);
     let quality_per_dm = fields.optional_integer("quality_per_dm", QUALITIES);
     let quality = fields.optional_integer("quality", QUALITIES);

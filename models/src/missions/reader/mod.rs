@@ -10,8 +10,9 @@ mod moments;
 mod path;
 mod recorded;
 mod supervision;
+mod under;
 
 pub(super) use fields::{Sink, document};
 pub(super) use limits::with_limits;
-pub(super) use mission::definition;
+pub(super) use mission::{definition, definition_of};
 pub(crate) use recorded::expected;

@@ -9,6 +9,7 @@ use crate::missions::definition::{
 use crate::missions::diagnostic::{Diagnostic, Spanned};
 use crate::missions::known::{AT_LEAST_ZERO, SPEEDS, UNITS};
 use cotama_core::units::{Millimetres, MillimetresPerSecond};
+use std::ops::Range;
 
 pub(super) fn zone(
     mut fields: Fields<'_>,
@@ -85,7 +86,17 @@ pub(super) fn objective(
     let x_end = fields.integer("x_end_mm", AT_LEAST_ZERO).map(Millimetres);
     let doing = does.as_ref().map(|does| does.as_ref().map(|does| does.value));
     let way = x_start.zip(x_end);
-    let tasks = fields.texts("tasks").and_then(|names| {
+    let by_does = supervised.is_by_robot() && !fields.has("tasks");
+    let known = by_does.then(|| match (&doing, way) {
+        (Ok(Some(does)), Some(way)) => {
+            let tasks = vec![does.task()];
+            has_options(&fields, "does", &tasks, tios);
+            suit_what_it_does(&fields, &tasks, way, *does).then_some(tasks)
+        }
+        _ => None,
+    });
+    let named = if by_does { None } else { fields.texts("tasks") };
+    let tasks = known.flatten().or(named.and_then(|names| {
         let found = tasks(&fields, &names, tios)?;
         let suit = match (way?, doing) {
             (way, Ok(None)) => suit_the_way(&fields, &found, way),
@@ -93,7 +104,7 @@ pub(super) fn objective(
             (_, Err(Reported)) => false,
         };
         suit.then_some(found)
-    });
+    }));
     fields.finish();
     let Some(Spanned { value: id, span }) = id else { return Entry::unreadable() };
     let complete = || {
@@ -118,17 +129,25 @@ fn tasks(fields: &Fields<'_>, names: &[Spanned<String>], tios: &[Entry<Tio>]) ->
             fields
                 .report(Diagnostic::new(name.span.clone(), message, "again").help("leave it out"));
         }
-        // Options that could not be read may be of this task.
-        let implements = |tio: &Entry<Tio>| tio.item.as_ref().is_none_or(|tio| tio.task == *task);
-        if !tios.iter().any(implements) {
-            let message = format!("no option implements the task `{}`", task.name());
-            let help = format!("add a [[tio]] with task = \"{}\"", task.name());
-            fields.report(
-                Diagnostic::new(name.span.clone(), message, "without an option").help(help),
-            );
-        }
+        without_option(fields, *task, name.span.clone(), tios);
     }
     Some(found)
+}
+
+/// Reports tasks that no option implements, at a key.
+fn has_options(fields: &Fields<'_>, key: &str, tasks: &[Task], tios: &[Entry<Tio>]) {
+    tasks.iter().for_each(|it| without_option(fields, *it, fields.span_of(key), tios));
+}
+
+/// Reports a task that no option implements.
+fn without_option(fields: &Fields<'_>, task: Task, at: Range<usize>, tios: &[Entry<Tio>]) {
+    // Options that could not be read may be of this task.
+    let implements = |tio: &Entry<Tio>| tio.item.as_ref().is_none_or(|tio| tio.task == task);
+    if !tios.iter().any(implements) {
+        let message = format!("no option implements the task `{}`", task.name());
+        let help = format!("add a [[tio]] with task = \"{}\"", task.name());
+        fields.report(Diagnostic::new(at, message, "without an option").help(help));
+    }
 }
 
 /// The tasks that decide how long an objective takes.

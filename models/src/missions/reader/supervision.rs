@@ -11,12 +11,22 @@ use cotama_core::hardware::Equipment;
 
 /// Whether the mission is supervised, and by supervisors that use again what returns, as far as it
 /// could be read.
-pub(super) struct Supervised(Result<Option<(Supervision, bool)>, Reported>);
+pub(super) struct Supervised(Result<Option<(Supervision, bool)>, Reported>, bool);
 
 impl Supervised {
+    /// Supervision by those of a robot that has a file of its own.
+    pub(super) const fn by_robot() -> Self {
+        Self(Ok(None), true)
+    }
+
+    /// Returns whether the supervisors are those of a robot's file.
+    pub(super) const fn is_by_robot(&self) -> bool {
+        self.1
+    }
+
     /// Returns whether the mission is supervised; `None` when that could not be read.
     pub(super) fn known(&self) -> Option<bool> {
-        self.0.as_ref().ok().map(Option::is_some)
+        self.0.as_ref().ok().map(|it| it.is_some() || self.1)
     }
 
     /// Returns the supervision, if any, and whether modules that return are used again.
@@ -27,14 +37,15 @@ impl Supervised {
 
 /// Reads `[supervision]`.
 pub(super) fn read(root: &mut Fields<'_>) -> Supervised {
-    Supervised(root.optional_table("supervision").and_then(|table| {
+    let found = root.optional_table("supervision").and_then(|table| {
         let Some(mut table) = table else { return Ok(None) };
         let found = table.choice("decides", "supervision", &Supervision::NAMES);
         let recovery = table.optional_flag("recovery");
         table.finish();
         let recovery = recovery?.unwrap_or(false);
         found.map(|_| Some((Supervision::Cotama, recovery))).ok_or(Reported)
-    }))
+    });
+    Supervised(found, false)
 }
 
 /// A key that belongs to supervised missions, there and only there.
@@ -77,7 +88,7 @@ pub(super) fn configuration(
     hardware: &[Entry<Hardware>],
     needs: Option<Equipment>,
 ) -> Result<Option<Configuration>, Reported> {
-    if !matches!(task, None | Some(Task::Move)) {
+    if supervised.is_by_robot() || !matches!(task, None | Some(Task::Move)) {
         // Only moving options have one: elsewhere it is an unknown key.
         return Ok(None);
     }

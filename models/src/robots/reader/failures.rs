@@ -68,6 +68,9 @@ fn failure(mut fields: Fields<'_>, names: &Names) -> Option<Failure> {
     }
     let latency = fields.optional_integer("latency_ms", TIMES);
     let loses = parts(&mut fields, "loses", names);
+    let motion = super::body::motion(&mut fields);
+    let ends = fields.optional_integer("ends_ms", TIMES);
+    let helped = fields.optional_flag("helped");
     let restarts = match fields.optional_table("restart") {
         Ok(it) => Some(it.map(|it| restart(it, names))),
         Err(_) => None,
@@ -99,6 +102,9 @@ fn failure(mut fields: Fields<'_>, names: &Names) -> Option<Failure> {
         unseen: unseen.ok()?.map(|it| it.value),
         latency: Millis(latency.ok()?.unwrap_or(0)),
         loses: loses?,
+        motion: motion?,
+        ends: ends.ok()?.map(Millis),
+        helped: helped.ok()?.unwrap_or(false),
         restarts,
         mean_mh: mean?,
         source,

@@ -67,8 +67,7 @@ pub(super) struct Stretch {
 impl<'t> View<'t> {
     pub(super) fn new(trace: &'t Trace) -> Self {
         let header = &trace.header;
-        let mission = Mission::parse(&header.mission_source, &header.mission);
-        let mission = mission.map_err(|errors| {
+        let mission = header.mission().map_err(|errors| {
             errors
                 .to_string()
                 .lines()

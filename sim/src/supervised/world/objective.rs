@@ -1,7 +1,7 @@
 //! The present objective of the mission, and the progress in it.
 
 use super::{CLOCKS, World};
-use crate::supervised::plan::Progress;
+use crate::plan::Progress;
 use cotama_core::player::Program;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::tables::Rest;

@@ -3,7 +3,8 @@
 use super::{CLOCKS, World};
 use crate::body::{Observed, Planted, Seen};
 use crate::run::{Part, PlanCause};
-use crate::supervised::plan::{Planning, Progress};
+use super::units;
+use crate::plan::{Planning, Progress};
 use cotama_core::player::Program;
 use cotama_models::cotama::{
     Class, Configuration, FailureMode, Finding, Module, Modules, NoPlanLeft, Plans, Why,
@@ -58,7 +59,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
 /// The rest of the mission, planned by PANORAMA.
 struct Rest<'w, 'm> {
     mission: &'m Mission,
-    planning: &'w mut Planning<'m>,
+    planning: &'w mut Planning<'m, Configuration>,
     at: Progress,
     drives: bool,
     /// A defect that was planted.
@@ -88,13 +89,14 @@ impl Plans for Rest<'_, '_> {
         // Hardware that the plan in force does not use changes it no more (Lambert et al. 2024,
         // 7.3.2).
         let is_lost = matches!(cause, PlanCause::Lost(_));
-        if is_lost && self.planning.needs_no_more(self.at, available) {
+        let left = units(self.mission, available);
+        if is_lost && self.planning.needs_no_more(self.at, left) {
             return Ok(true);
         }
-        let used = if self.with_lost { Modules::ALL } else { available };
+        let used = if self.with_lost { units(self.mission, Modules::ALL) } else { left };
         let planned = self.planning.plan(cause, self.at, used);
         *self.planned_with_lost |=
-            planned.is_ok() && !self.planning.needs_no_more(self.at, available);
+            planned.is_ok() && !self.planning.needs_no_more(self.at, left);
         planned.map(|()| true).map_err(|_| NoPlanLeft)
     }
 

@@ -52,6 +52,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
                 x_mm,
                 failure: one_based(number),
                 mode,
+                what: None,
                 during,
             }));
         }

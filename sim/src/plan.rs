@@ -1,5 +1,5 @@
-//! PANORAMA under the supervisors: which configuration each drive uses, within what is left of the
-//! limits.
+//! PANORAMA under supervisors: which configuration each drive uses, within what is left of the
+//! limits. `K` is how the supervisors name a configuration.
 //!
 //! Configurations of the adapter are task implementation options (Lambert et al., J. Intell. Robot.
 //! Syst. 110, 2024, Section 6.2.2), modules are their hardware. A lost module removes options, and
@@ -10,44 +10,44 @@ use crate::run::{NoPlan, PlanCause, PlanMade};
 use crate::solver::{Left, Solver};
 use cotama_core::hardware::Equipment;
 use cotama_core::units::{MillimetresPerSecond, Millis, Milliwatts};
-use cotama_models::cotama::{Configuration, Modules};
-use cotama_models::missions::Mission;
+use cotama_models::missions::{Mission, Tio};
 use cotama_models::missions::tables::{Activity, Alternative, Rest};
 
 /// How far a mission has come.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Progress {
+pub(crate) struct Progress {
     /// The activity under way, or the next one.
-    pub(super) activity: usize,
+    pub(crate) activity: usize,
     /// Rest of the current activity; `None` when it is whole.
-    pub(super) rest: Option<Rest>,
+    pub(crate) rest: Option<Rest>,
     /// When, where (mm), and what was used (ms, mJ).
-    pub(super) now: Millis,
-    pub(super) x_mm: u64,
-    pub(super) used: [u64; 2],
+    pub(crate) now: Millis,
+    pub(crate) x_mm: u64,
+    pub(crate) used: [u64; 2],
 }
 
 /// The plan of a mission under way.
 #[derive(Clone, Debug)]
-pub(super) struct Planning<'m> {
+pub(crate) struct Planning<'m, K> {
     mission: &'m Mission,
     planner: Planner,
     activities: Vec<Activity<'m>>,
     /// The configuration of each alternative, for activities that drive.
-    configurations: Vec<Vec<Option<Configuration>>>,
+    configurations: Vec<Vec<Option<K>>>,
     choice: Vec<u16>,
     solver: Solver,
-    pub(super) made: Vec<PlanMade>,
+    pub(crate) made: Vec<PlanMade>,
 }
 
-impl<'m> Planning<'m> {
-    pub(super) fn new(mission: &'m Mission, planner: Planner) -> Self {
+impl<'m, K: Copy + PartialEq> Planning<'m, K> {
+    /// The plan of a mission that is not made yet; `of` is the configuration of an option.
+    pub(crate) fn new(mission: &'m Mission, planner: Planner, of: impl Fn(&Tio) -> Option<K>) -> Self {
         let scenario = mission.scenario();
         let activities = scenario.activities();
         let named = |label: &String| {
             let option =
                 label.split(' ').find_map(|id| mission.tios.iter().find(|tio| tio.id == id))?;
-            option.configuration
+            of(option)
         };
         let configurations =
             scenario.activities.iter().map(|it| it.labels.iter().map(named).collect()).collect();
@@ -63,14 +63,13 @@ impl<'m> Planning<'m> {
         }
     }
 
-    /// Plans what is left with these modules.
-    pub(super) fn plan(
+    /// Plans what is left with this hardware.
+    pub(crate) fn plan(
         &mut self,
         cause: PlanCause,
         at: Progress,
-        available: Modules,
+        available: Equipment,
     ) -> Result<(), NoPlan> {
-        let units = self.units(available);
         let scenario = self.mission.scenario();
         let first = at.activity;
         let limits =
@@ -79,7 +78,7 @@ impl<'m> Planning<'m> {
             activities: &self.activities,
             first,
             rest: at.rest,
-            available: units,
+            available,
             known: None,
             limits,
             order: scenario.order,
@@ -108,15 +107,14 @@ impl<'m> Planning<'m> {
         Ok(())
     }
 
-    /// Whether what is left of the plan in force needs no other modules than these.
-    pub(super) fn needs_no_more(&self, at: Progress, available: Modules) -> bool {
-        let units = self.units(available);
+    /// Whether what is left of the plan in force needs no other hardware than this.
+    pub(crate) fn needs_no_more(&self, at: Progress, units: Equipment) -> bool {
         let left = self.activities.iter().zip(&self.choice).skip(at.activity);
         { left }.all(|(it, &id)| units.covers(it.alternatives[usize::from(id)].needs))
     }
 
     /// Returns the cost of the rest of the plan in force, in ms and mJ.
-    pub(super) fn rest(&self, at: Progress) -> [u64; 2] {
+    pub(crate) fn rest(&self, at: Progress) -> [u64; 2] {
         let mut sum = [0; 2];
         for (activity, &id) in
             (at.activity..).zip(self.choice.get(at.activity..).unwrap_or_default())
@@ -133,7 +131,7 @@ impl<'m> Planning<'m> {
     }
 
     /// The name of the alternative that is planned for an activity, its speed and its power.
-    pub(super) fn planned(&self, activity: usize) -> (&'m str, MillimetresPerSecond, Milliwatts) {
+    pub(crate) fn planned(&self, activity: usize) -> (&'m str, MillimetresPerSecond, Milliwatts) {
         let id = usize::from(self.choice[activity]);
         let alternative = &self.activities[activity].alternatives[id];
         let label = self.mission.scenario().activities[activity].labels.get(id);
@@ -141,33 +139,33 @@ impl<'m> Planning<'m> {
     }
 
     /// The axis, the first in their order, on which the plan no longer keeps its limit.
-    pub(super) fn short(&self, at: Progress) -> Option<usize> {
+    pub(crate) fn short(&self, at: Progress) -> Option<usize> {
         let (scenario, rest) = (self.mission.scenario(), self.rest(at));
         scenario.order.into_iter().find(|&axis| at.used[axis] + rest[axis] > scenario.limits[axis])
     }
 
     /// The configuration that is planned for the first drive from an activity on.
-    pub(super) fn next_drive(&self, activity: usize) -> Option<Configuration> {
+    pub(crate) fn next_drive(&self, activity: usize) -> Option<K> {
         let planned = self.configurations.iter().zip(&self.choice).skip(activity);
         { planned }.find_map(|(it, choice)| it[usize::from(*choice)])
     }
 
     /// Returns the pace of an activity in a configuration: speed and power; that of the planned
     /// alternative when none has it.
-    pub(super) fn pace(
+    pub(crate) fn pace(
         &self,
         activity: usize,
-        configuration: Option<Configuration>,
+        configuration: Option<K>,
     ) -> (MillimetresPerSecond, Milliwatts) {
         let alternative = self.driven(activity, configuration);
         (alternative.speed, alternative.power)
     }
 
     /// Returns the power of standing in a configuration, with its hardware on.
-    pub(super) fn rest_power(
+    pub(crate) fn rest_power(
         &self,
         activity: usize,
-        configuration: Option<Configuration>,
+        configuration: Option<K>,
     ) -> Milliwatts {
         let standing = self.mission.motion_power.at(MillimetresPerSecond(0));
         let hardware = self.mission.power_of(self.driven(activity, configuration).needs);
@@ -175,11 +173,11 @@ impl<'m> Planning<'m> {
     }
 
     /// The quality per 100 mm of a configuration; that of the planned alternative when none has it.
-    pub(super) fn quality(&self, activity: usize, configuration: Option<Configuration>) -> u32 {
+    pub(crate) fn quality(&self, activity: usize, configuration: Option<K>) -> u32 {
         self.driven(activity, configuration).quality
     }
 
-    fn driven(&self, activity: usize, configuration: Option<Configuration>) -> &Alternative {
+    fn driven(&self, activity: usize, configuration: Option<K>) -> &Alternative {
         let with = self.configurations[activity]
             .iter()
             .position(|it| it.is_some() && *it == configuration);
@@ -188,7 +186,7 @@ impl<'m> Planning<'m> {
     }
 
     /// The activity of an objective that holds a place of the path.
-    pub(super) fn activity(&self, objective: usize, x_mm: u64) -> usize {
+    pub(crate) fn activity(&self, objective: usize, x_mm: u64) -> usize {
         let of = |it: &usize| self.mission.scenario().activities[*it].objective == objective;
         let mut all = (0..self.activities.len()).filter(of);
         let first = all.next().unwrap_or(0);
@@ -196,20 +194,8 @@ impl<'m> Planning<'m> {
     }
 
     /// How long an activity takes that does not travel.
-    pub(super) fn standing(&self, activity: usize) -> Millis {
+    pub(crate) fn standing(&self, activity: usize) -> Millis {
         self.activities[activity].alternatives[usize::from(self.choice[activity])].duration
-    }
-
-    /// Modules as hardware of the mission.
-    fn units(&self, available: Modules) -> Equipment {
-        let works = |name: &str| available.iter().any(|it| it.name() == name);
-        let kinds = self.mission.hardware.iter().enumerate();
-        kinds.fold(Equipment::NONE, |all, (kind, it)| {
-            let module =
-                cotama_models::cotama::Module::ALL.iter().any(|module| module.name() == it.name);
-            let count = if module && !works(&it.name) { 0 } else { it.units };
-            all.with(kind, count).unwrap_or(all)
-        })
     }
 }
 
@@ -226,9 +212,9 @@ mod tests {
     fn a_plan_that_fills_a_limit_to_the_last_unit_keeps_it() {
         let delivery = embedded::mission("delivery").unwrap();
         let mission = Mission::parse(delivery.name, delivery.text).unwrap();
-        let mut planning = Planning::new(&mission, Planner::of(&mission));
+        let mut planning = Planning::new(&mission, Planner::of(&mission), |it| it.configuration);
         let start = Progress { activity: 0, rest: None, now: Millis(0), x_mm: 0, used: [0; 2] };
-        planning.plan(PlanCause::Start, start, Modules::ALL).unwrap();
+        planning.plan(PlanCause::Start, start, mission.available()).unwrap();
         let rest = planning.rest(start);
         let left = [0, 1].map(|axis| mission.limits[axis] - rest[axis]);
         let short = |used| planning.short(Progress { used, ..start });
@@ -244,7 +230,7 @@ mod tests {
         let zone = "[[zone]]\nid = \"hall\"\nx_start_mm = 60000\nx_end_mm = 70000\n[run]";
         let text = delivery.text.replacen("[run]", zone, 1);
         let mission = Mission::parse(delivery.name, &text).unwrap();
-        let planning = Planning::new(&mission, Planner::of(&mission));
+        let planning = Planning::new(&mission, Planner::of(&mission), |it| it.configuration);
         let at = |x_mm: u64| planning.activity(2, x_mm);
         // The first drive, the object, and three parts of the second drive.
         assert_eq!([40_000, 59_999, 60_000, 69_999, 70_000, 80_000].map(at), [2, 2, 3, 3, 4, 4]);

@@ -1,0 +1,51 @@
+//! A robot together with the text that says it.
+
+use super::{Robot, embedded};
+use crate::missions::MissionErrors;
+use std::sync::Arc;
+
+/// A robot and its file: what a run under its supervisors has to keep to be made again.
+///
+/// ```
+/// use cotama_models::robots::RobotFile;
+/// let file = RobotFile::shipped("transport").unwrap();
+/// assert_eq!((file.source(), file.robot().failures.len()), ("transport", 11));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RobotFile {
+    source: String,
+    text: Arc<str>,
+    robot: Arc<Robot>,
+}
+
+impl RobotFile {
+    /// Reads a robot's file. `source` is its name in messages.
+    ///
+    /// # Errors
+    /// As [`Robot::parse`].
+    pub fn parse(source: &str, text: &str) -> Result<Self, MissionErrors> {
+        let robot = Arc::new(Robot::parse(source, text)?);
+        Ok(Self { source: source.to_owned(), text: text.into(), robot })
+    }
+
+    /// Returns the robot of this name that comes with the program.
+    pub fn shipped(name: &str) -> Option<Self> {
+        let it = embedded(name)?;
+        Self::parse(it.name, it.text).ok()
+    }
+
+    /// Returns the name of the file.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// Returns the text of the file.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Returns the robot.
+    pub fn robot(&self) -> &Robot {
+        &self.robot
+    }
+}

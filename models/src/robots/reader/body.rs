@@ -1,0 +1,82 @@
+//! Reading the body of a robot, and what a failure does to its motion.
+
+use crate::missions::reader::fields::Fields;
+use crate::missions::{Diagnostic, MotionPower, harmless_speed};
+use crate::robots::{Body, Motion};
+use cotama_core::units::{Millijoules, MillimetresPerSecond};
+use std::ops::RangeInclusive;
+
+/// Masses in g, accelerations in mm/s², energies in mJ.
+const POSITIVE: RangeInclusive<i64> = 1..=1_000_000_000;
+/// Coefficients of the power of motion.
+const COEFFICIENTS: RangeInclusive<i64> = 0..=1_000_000_000;
+/// Speeds that a body can have, in mm/s.
+const SPEEDS: RangeInclusive<i64> = 1..=10_000;
+const MOTIONS: [(&str, Motion); 5] = [
+    ("blocked", Motion::Blocked),
+    ("runaway", Motion::Runaway),
+    ("dead", Motion::Dead),
+    ("silent", Motion::Silent),
+    ("mindless", Motion::Mindless),
+];
+
+pub(super) fn body(mut fields: Fields<'_>) -> Option<Body> {
+    let speed_max = fields.integer("speed_max_mm_s", SPEEDS).map(MillimetresPerSecond);
+    let acceleration = fields.integer("acceleration_mm_s2", POSITIVE);
+    let motion_power = fields.table("motion_power").and_then(|mut it| {
+        let c0 = it.integer("c0", COEFFICIENTS);
+        let c1 = it.integer("c1", COEFFICIENTS);
+        let c2 = it.integer("c2", COEFFICIENTS);
+        it.finish();
+        Some(MotionPower { c0: c0?, c1: c1?, c2: c2? })
+    });
+    let mass = fields.optional_integer::<u64>("mass_g", POSITIVE);
+    let energy = fields.optional_integer::<u64>("impact_energy_max_mj", POSITIVE);
+    let source = super::words(&mut fields, "source");
+    let impact = match (mass.ok()?, energy.ok()?) {
+        (Some(mass), Some(energy)) => Some((mass, energy)),
+        (None, None) | (Some(_), None) => None,
+        (None, Some(_)) => {
+            let (span, message) = (fields.span_of("impact_energy_max_mj"), "no `mass_g`");
+            let it = Diagnostic::new(span, "the energy of an impact is that of a mass", message);
+            fields.report(it.help("add `mass_g`, or leave `impact_energy_max_mj` out"));
+            None
+        }
+    };
+    let harms = |(mass, energy)| harmless_speed(mass, Millijoules(energy)).0 == 0;
+    if impact.is_some_and(harms) {
+        let (span, label) = (fields.span_of("impact_energy_max_mj"), "too low");
+        let it = Diagnostic::new(span, "no speed is harmless: even 1 mm/s is too fast", label);
+        fields.report(it.help("give a lower mass or a higher energy"));
+    }
+    fields.finish();
+    Some(Body {
+        speed_max: speed_max?,
+        acceleration: acceleration?,
+        motion_power: motion_power?,
+        impact,
+        source,
+    })
+}
+
+/// Reads what a failure does to the motion: `motion`, or `slowed_permille`.
+pub(super) fn motion(fields: &mut Fields<'_>) -> Option<Motion> {
+    let slowed = fields.optional_integer::<u16>("slowed_permille", 1..=999);
+    let named = fields.optional_text("motion");
+    let (slowed, named) = (slowed.ok()?, named.ok()?);
+    match (slowed, named) {
+        (None, None) => Some(Motion::Free),
+        (Some(parts), None) => Some(Motion::Slowed(parts)),
+        (None, Some(name)) => {
+            let names = MOTIONS.iter().map(|it| it.0);
+            let at = fields.index_of(&name, "effect on motion", names)?;
+            MOTIONS.get(at).map(|it| it.1)
+        }
+        (Some(_), Some(name)) => {
+            let message = "a failure has one effect on motion";
+            let it = Diagnostic::new(name.span, message, "and `slowed_permille` too");
+            fields.report(it.help("leave one of them out"));
+            None
+        }
+    }
+}

@@ -1,0 +1,269 @@
+//! Missions under the supervisors that a robot's file makes: travel, energy, failures, observers
+//! with their latencies, an operator; no rays.
+//!
+//! The supervisors are the nets that the checker explores
+//! ([`system`](cotama_models::robots::supervisors::system)), one round a period, told one thing a
+//! round. All else is the robot's file: what a failure does to motion and to parts, which flags
+//! show it and when, and what a configuration draws.
+//!
+//! ```
+//! use cotama_models::missions::{Mission, embedded};
+//! use cotama_sim::robots::{Driven, Script};
+//! use cotama_sim::run::Outcome;
+//! let shift = embedded::mission("shift").unwrap();
+//! let mission = Mission::parse(shift.name, shift.text).unwrap();
+//! let run = Driven::new(&mission).unwrap().run(&Script::default()).unwrap();
+//! assert_eq!((run.outcome, run.operator_requests), (Outcome::Completed, 0));
+//! ```
+
+mod failing;
+mod operator;
+mod records;
+mod summary;
+mod world;
+
+use crate::options::Planner;
+use crate::plan::Planning;
+use crate::record::{Recorder, Silent};
+use crate::run::{NoPlan, Outcome, PlanMade};
+use cotama_core::player::{Packed, Program, words};
+use cotama_core::system::{System, SystemError};
+use cotama_core::units::{Millimetres, Millis};
+use cotama_models::missions::Mission;
+use cotama_models::missions::faults::Faults;
+use cotama_models::robots::supervisors::{self, OwnedSystem};
+use cotama_models::robots::{Answer, Decision, IncidentKind, Moment, Told};
+use std::collections::VecDeque;
+use world::World;
+
+/// The faults of a run, and the answers of the operator.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Script {
+    /// Failures, each once.
+    pub injections: Vec<Injection>,
+    /// The operator's answers to requests, in their order; where there is none he has his habits.
+    pub answers: Vec<Answers>,
+}
+
+/// A failure that is to happen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Injection {
+    /// The moment of the failure.
+    pub when: Moment,
+    /// Number of the failure.
+    pub failure: usize,
+    /// When it ends, if not by itself.
+    pub until: Option<Moment>,
+}
+
+/// The answers of the operator to a request.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Answers {
+    /// To the first request from there on.
+    pub x: Millimetres,
+    /// The answers, one after the other.
+    pub answers: VecDeque<Answer>,
+    /// After how long each.
+    pub delay: Millis,
+}
+
+impl From<&Faults> for Script {
+    /// The failures and answers of a mission's own script.
+    fn from(faults: &Faults) -> Self {
+        let mut script = Self::default();
+        for incident in &faults.of_robot {
+            let when = incident.when;
+            match &incident.kind {
+                IncidentKind::Failure { failure, until } => {
+                    script.injections.push(Injection { when, failure: *failure, until: *until });
+                }
+                IncidentKind::Repair(failure) => {
+                    let open = |it: &&mut Injection| it.failure == *failure && it.until.is_none();
+                    if let Some(it) = script.injections.iter_mut().rfind(open) {
+                        it.until = Some(when);
+                    }
+                }
+                IncidentKind::Operator { answers, delay } => {
+                    let Moment::Place(x) = when else { continue };
+                    let answers = answers.iter().copied().collect();
+                    script.answers.push(Answers { x, answers, delay: *delay });
+                }
+            }
+        }
+        script
+    }
+}
+
+/// The result of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// How it ended: completed, safe (the global supervisor gave up and the robot stands), or
+    /// failed.
+    pub outcome: Outcome,
+    /// Time at the end.
+    pub time: Millis,
+    /// Position at the end.
+    pub x: Millimetres,
+    /// Duration and energy used, in ms and mJ.
+    pub used: [u64; 2],
+    /// How often the operator was asked by the supervisors.
+    pub operator_requests: u64,
+    /// Events that the supervisors accepted, each with the number of the round before it.
+    pub told: Vec<(u64, Told)>,
+    /// How many rounds there were.
+    pub rounds: u64,
+    /// The conduct on each failure, in the order of their happening.
+    pub conduct: Vec<Conduct>,
+    /// Which configuration ran from when on, by its number; `None` while none did.
+    pub configurations: Vec<(Millis, Option<usize>)>,
+    /// The plans of PANORAMA.
+    pub plans: Vec<PlanMade>,
+    /// The longest time that the robot moved while a module was broken that its configuration
+    /// requires.
+    pub exposed: Millis,
+    /// The longest way that it went on after the permit to move was gone.
+    pub braked: Millimetres,
+    /// Whether it moved after the global supervisor had made it safe: never, or something is wrong.
+    pub moved_when_safe: bool,
+    /// The failure that ended the mission, by its position in the conduct.
+    pub ended_by: Option<usize>,
+}
+
+/// The conduct on a failure.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Conduct {
+    /// Number of the failure.
+    pub failure: usize,
+    /// Time of the failure.
+    pub injected: Millis,
+    /// Position of the robot then.
+    pub x: Millimetres,
+    /// When its flags were raised.
+    pub detected: Option<Millis>,
+    /// The failures that the flags were taken for.
+    pub taken_for: Vec<usize>,
+    /// When the contextual supervisor had decided, and what.
+    pub decided: Option<(Millis, Decision)>,
+    /// When a supervisor first acted on it.
+    pub answered: Option<Millis>,
+    /// For how long, in all, the robot moved while its configuration required a module that this
+    /// failure breaks.
+    pub exposed: Millis,
+}
+
+/// A mission under the supervisors of a robot's file, ready to be run.
+#[derive(Clone, Debug)]
+pub struct Driven<'m> {
+    mission: &'m Mission,
+    system: OwnedSystem,
+    packed: Memory,
+    planner: Planner,
+}
+
+/// The supervisors, packed into the smallest memory that holds them.
+#[derive(Clone, Debug)]
+enum Memory {
+    Small(Box<Packed<SMALL, 0, SLOTS>>),
+    Large(Box<Packed<LARGE, 0, SLOTS>>),
+}
+
+/// Words of a marking: for the robots that come with the program, and for the largest.
+const SMALL: usize = 8;
+const LARGE: usize = 64;
+/// The most events that can wait in the mailboxes of the supervisors.
+const SLOTS: usize = 256;
+
+/// Why a mission is not driven by the supervisors of a robot's file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Undriven {
+    /// The mission names no robot.
+    Plain,
+    /// The supervisors are too large to be played.
+    TooLarge(SystemError),
+}
+
+impl std::fmt::Display for Undriven {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Plain => f.write_str("the mission names no robot that has a file"),
+            Self::TooLarge(why) => write!(f, "the robot's supervisors cannot be played: {why}"),
+        }
+    }
+}
+
+impl std::error::Error for Undriven {}
+
+impl<'m> Driven<'m> {
+    /// Makes a mission ready; [the planner of the mission](Planner::of) plans.
+    ///
+    /// # Errors
+    /// When it names no robot, or one with more supervisors than can be played.
+    pub fn new(mission: &'m Mission) -> Result<Self, Undriven> {
+        let robot = mission.robot().ok_or(Undriven::Plain)?.robot();
+        let system = supervisors::system(robot);
+        let packed = system.with(|system| {
+            Ok(if words(system).is_some_and(|it| it <= SMALL) {
+                Memory::Small(Box::new(Packed::of(system)?))
+            } else {
+                Memory::Large(Box::new(Packed::of(system)?))
+            })
+        });
+        let packed = packed.map_err(Undriven::TooLarge)?;
+        Ok(Self { mission, system, packed, planner: Planner::of(mission) })
+    }
+
+    /// Plans are made by this planner.
+    #[must_use]
+    pub fn with_planner(self, planner: Planner) -> Self {
+        Self { planner, ..self }
+    }
+
+    /// Runs it.
+    ///
+    /// # Errors
+    /// When there is no plan at the start; nothing is run then.
+    pub fn run(&self, script: &Script) -> Result<Run, NoPlan> {
+        self.run_recorded(script, Millis(1_000), &mut Silent)
+    }
+
+    /// Runs it and records what happens, with a sample after every `period`, rounded up to whole
+    /// rounds.
+    ///
+    /// # Errors
+    /// When there is no plan at the start; nothing is run or recorded then.
+    pub fn run_recorded<R: Recorder>(
+        &self,
+        script: &Script,
+        period: Millis,
+        recorder: &mut R,
+    ) -> Result<Run, NoPlan> {
+        self.system.with(|system| match &self.packed {
+            Memory::Small(packed) => {
+                self.played(system, packed.load(system), script, period, recorder)
+            }
+            Memory::Large(packed) => {
+                self.played(system, packed.load(system), script, period, recorder)
+            }
+        })
+    }
+
+    fn played<P: Program<W, 0, SLOTS>, R: Recorder, const W: usize>(
+        &self,
+        _: &System<'_>,
+        program: P,
+        script: &Script,
+        period: Millis,
+        recorder: &mut R,
+    ) -> Result<Run, NoPlan> {
+        let mut planning = Planning::new(self.mission, self.planner, |tio| {
+            let robot = self.mission.robot()?.robot();
+            robot.configurations.iter().position(|it| it.name == tio.id)
+        });
+        planning.plan(crate::run::PlanCause::Start, world::START, self.mission.available())?;
+        let Some(mut world) = World::start(self.mission, program, planning, script, period) else {
+            return Err(NoPlan::Infeasible); // a mission that is driven has a robot with a body
+        };
+        world.run(recorder);
+        Ok(world.into_run())
+    }
+}

@@ -1,0 +1,288 @@
+//! The records of a run of a robot, in the terms of every trace.
+
+use super::world::World;
+use crate::record::Recorder;
+use crate::run::Reason;
+use crate::trace::supervised::{Configured, Decision, Diagnosis, Failure, Fired, Told};
+use crate::trace::{Activity, End, Plan, Record, Request, ReturnMargin, Sample};
+use cotama_core::net::TransitionId;
+use cotama_core::player::Program;
+use cotama_core::system::Of;
+use cotama_core::units::Millis;
+use cotama_models::cotama::{Cause, Class, Mode as Autonomy};
+use cotama_models::robots::{self, Mode, Where};
+
+/// Where records go, and how much of a run is recorded.
+pub(super) struct Recording<'r, R> {
+    to: &'r mut R,
+    plans: usize,
+    activity: Option<usize>,
+    next_sample: Millis,
+}
+
+impl<'r, R: Recorder> Recording<'r, R> {
+    pub(super) fn new(to: &'r mut R) -> Self {
+        Self { to, plans: 0, activity: None, next_sample: Millis(0) }
+    }
+
+    fn put(&mut self, record: impl FnOnce() -> Record) {
+        if R::WANTED {
+            self.to.record(record());
+        }
+    }
+}
+
+/// The class of a decision, as traces name it.
+pub(super) const fn class(decision: robots::Decision) -> Class {
+    match decision {
+        robots::Decision::Record => Class::Record,
+        robots::Decision::Adapt => Class::Adapter,
+        robots::Decision::Ask => Class::Local,
+        robots::Decision::Stop => Class::Global,
+    }
+}
+
+impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
+    fn here(&self) -> (u64, u64) {
+        (self.now.0 * 1_000, self.drive.x().0)
+    }
+
+    fn failure_id(&self, number: usize) -> String {
+        self.robot.failures.get(number).map_or_else(String::new, |it| it.id.clone())
+    }
+
+    pub(super) fn record_failure<R: Recorder>(&self, to: &mut Recording<'_, R>, number: usize) {
+        let (t_us, x_mm) = self.here();
+        let failure = u16::try_from(self.run.conduct.len()).unwrap_or(u16::MAX);
+        let (mode, during) = (self.failure_id(number), self.place_name());
+        let what = self.robot.failures.get(number).map(|it| match it.item.as_str() {
+            "" => it.mode.clone(),
+            item => format!("{item}, {}", it.mode),
+        });
+        to.put(|| Record::Failure(Failure { t_us, x_mm, failure, mode, what, during }));
+    }
+
+    /// The place of the robot in its drive, in a word.
+    fn place_name(&self) -> String {
+        match self.level.place() {
+            Where::Rests => "Idle".to_owned(),
+            Where::Waits => "Waits".to_owned(),
+            Where::Runs { sub_objective, .. } => {
+                let of = self.robot.sub_objectives.get(sub_objective);
+                of.map_or_else(String::new, |it| it.name.clone())
+            }
+        }
+    }
+
+    pub(super) fn record_diagnosis<R: Recorder>(
+        &self,
+        to: &mut Recording<'_, R>,
+        seen: &[usize],
+        raised: &[usize],
+        taken: &[usize],
+    ) {
+        let (t_us, x_mm) = self.here();
+        let names: Vec<_> = self.robot.flags().map(|it| it.1).collect();
+        let mode = super::failing::mode(self.robot, self.level.place());
+        let worst = taken.iter().filter_map(|it| self.robot.failures.get(*it));
+        let worst = worst.map(|it| it.severity(mode.unwrap_or(Mode::Autonomous))).max();
+        let Some(severity) = worst else { return };
+        let reports = &self.robot.losses.reports;
+        let report = reports.iter().find(|it| taken.iter().any(|of| it.failures.contains(of)));
+        let decided = reports.iter().position(|it| Some(it) == report).map(|report| {
+            let lost = self.robot.lost(self.known);
+            robots::decide(self.robot, report, robots::Situation { at: self.level.place(), lost })
+        });
+        to.put(|| {
+            Record::Diagnosis(Diagnosis {
+                t_us,
+                x_mm,
+                failures: seen.iter().map(|it| u16::try_from(it + 1).unwrap_or(u16::MAX)).collect(),
+                flags: raised
+                    .iter()
+                    .filter_map(|it| names.get(*it).map(|it| (*it).to_owned()))
+                    .collect(),
+                candidates: taken.iter().map(|it| self.failure_id(*it)).collect(),
+                report: report.map(|it| it.name.clone()),
+                severity,
+                by_severity: severity.class(),
+                by_availability: decided.map_or(Class::Record, class),
+            })
+        });
+    }
+
+    pub(super) fn record_told<R: Recorder>(&self, to: &mut Recording<'_, R>, told: robots::Told) {
+        let (t_us, x_mm) = self.here();
+        let (round, event) = (self.run.rounds, self.level.name_of(told));
+        to.put(|| Record::Told(Told { t_us, x_mm, round, event }));
+    }
+
+    pub(super) fn record_fired<R: Recorder>(
+        &self,
+        to: &mut Recording<'_, R>,
+        id: Of<TransitionId>,
+        cause: Cause,
+    ) {
+        let Some(fired) = self.level.fired(id) else { return };
+        let (t_us, x_mm) = self.here();
+        to.put(|| {
+            Record::Fired(Fired {
+                t_us,
+                x_mm,
+                net: fired.net.to_owned(),
+                transition: fired.transition.to_owned(),
+                place: fired.place.to_owned(),
+                cause: (cause.0 > 0).then_some(cause.0),
+            })
+        });
+    }
+
+    pub(super) fn record_decision<R: Recorder>(
+        &self,
+        to: &mut Recording<'_, R>,
+        conduct: usize,
+        decision: robots::Decision,
+        by: Of<TransitionId>,
+    ) {
+        let (t_us, x_mm) = self.here();
+        let Some(it) = self.run.conduct.get(conduct) else { return };
+        let fired = self.level.fired(by);
+        to.put(|| {
+            Record::Decision(Decision {
+                t_us,
+                x_mm,
+                failure: u16::try_from(conduct + 1).unwrap_or(u16::MAX),
+                decision: class(decision),
+                event: fired.as_ref().and_then(|it| it.outputs.first()).map(|it| (*it).to_owned()),
+                transition: fired.as_ref().map(|it| it.transition.to_owned()),
+                since_ms: self.now.0.saturating_sub(it.injected.0),
+            })
+        });
+    }
+
+    pub(super) fn record_request<R: Recorder>(
+        &self,
+        to: &mut Recording<'_, R>,
+        conduct: Option<usize>,
+    ) {
+        let (t_us, x_mm) = self.here();
+        let it = conduct.and_then(|it| self.run.conduct.get(it));
+        let cause = it.map_or_else(
+            || "no failure".to_owned(),
+            |it| {
+                let all: Vec<_> = it.taken_for.iter().map(|it| self.failure_id(*it)).collect();
+                all.join(" or ")
+            },
+        );
+        let reason = "the robot cannot go on alone".to_owned();
+        to.put(|| Record::Request(Request { t_us, x_mm, cause, reason }));
+    }
+
+    pub(super) fn record_configuration<R: Recorder>(&self, to: &mut Recording<'_, R>) {
+        let (t_us, x_mm) = self.here();
+        let runs = self.configuration().and_then(|it| self.robot.configurations.get(it));
+        let configuration = runs.map(|it| it.name.clone());
+        let place = self.level.place();
+        let mode = match (place, super::failing::mode(self.robot, place)) {
+            (Where::Waits, _) => Autonomy::HandOver,
+            (_, Some(Mode::Operator)) => {
+                let moves = runs.is_some_and(|it| it.speed.0 > 0);
+                if moves { Autonomy::Teleoperated } else { Autonomy::Teleprogrammed }
+            }
+            _ => Autonomy::Autonomous,
+        };
+        to.put(|| Record::Configuration(Configured { t_us, x_mm, configuration, mode }));
+    }
+
+    pub(super) fn record_plans<R: Recorder>(&self, to: &mut Recording<'_, R>) {
+        for plan in self.planning.made.iter().skip(to.plans) {
+            to.put(|| {
+                let activity = self.mission.scenario().activities.get(plan.first_activity);
+                Record::Plan(Box::new(Plan {
+                    t_us: plan.t_us,
+                    x_mm: plan.x_mm,
+                    cause: plan.cause.text(self.mission),
+                    first_activity: activity.map_or_else(String::new, |it| it.id.clone()),
+                    before: plan.before.map(Into::into),
+                    after: plan.after.into(),
+                    used: plan.used.into(),
+                    plan: plan.rows(self.mission),
+                    steps: plan.steps,
+                    allocator: plan.allocator.into(),
+                    return_margin: ReturnMargin::default(),
+                }))
+            });
+            to.put(|| self.sample(plan.t_us, plan.used, plan.after));
+        }
+        to.plans = self.planning.made.len();
+    }
+
+    /// Activities and samples: where the robot is after the round.
+    pub(super) fn record_progress<R: Recorder>(&self, to: &mut Recording<'_, R>) {
+        if !R::WANTED {
+            return;
+        }
+        let ((t_us, x_mm), at) = (self.here(), self.progress());
+        let under_way = self.objective < self.mission.objectives.len();
+        if under_way && to.activity != Some(at.activity) {
+            to.activity = Some(at.activity);
+            let (choice, speed, _) = self.planning.planned(at.activity);
+            let of = self.mission.scenario().activities.get(at.activity);
+            let activity = of.map_or_else(String::new, |it| it.id.clone());
+            let (choice, speed_mm_s) = (choice.to_owned(), speed.0);
+            to.put(|| {
+                Record::Activity(Activity { t_us, x_mm, activity, choice, speed_mm_s })
+            });
+        }
+        if self.now >= to.next_sample {
+            to.next_sample = Millis(self.now.0.saturating_add(self.period.0));
+            to.put(|| self.sample(t_us, self.used(), self.margins()));
+        }
+    }
+
+    /// Limits less used less what is left of the plan in force, in ms and mJ.
+    fn margins(&self) -> [i64; 2] {
+        let (used, rest) = (self.used(), self.planning.rest(self.progress()));
+        let limits = self.mission.scenario().limits;
+        let signed = |it: u64| i64::try_from(it).unwrap_or(i64::MAX);
+        std::array::from_fn(|axis| {
+            signed(limits[axis]).saturating_sub(signed(used[axis])).saturating_sub(signed(rest[axis]))
+        })
+    }
+
+    fn sample(&self, t_us: u64, used: [u64; 2], margins: [i64; 2]) -> Record {
+        let (_, _, planned) = self.planning.planned(self.activity());
+        Record::Sample(Sample {
+            t_us,
+            x_mm: self.drive.x().0,
+            used: used.into(),
+            margins: margins.into(),
+            planned_power_mw: planned.0,
+            real_power_mw: self.power(false).0,
+            speed_mm_s: self.drive.speed().0,
+        })
+    }
+
+    /// Records the end.
+    pub(super) fn record_end<R: Recorder>(&self, to: &mut Recording<'_, R>) {
+        if !R::WANTED {
+            return;
+        }
+        let mut run = self.run.clone();
+        (run.time, run.x, run.used) = (self.now, self.drive.x(), self.used());
+        run.plans.clone_from(&self.planning.made);
+        let run = run.summary(self.mission);
+        to.put(|| {
+            Record::End(End {
+                t_us: self.now.0 * 1_000,
+                x_mm: run.x_mm,
+                outcome: run.outcome,
+                reason: run.reason.map(|it: Reason| it.text(self.mission)),
+                margins: run.margins.into(),
+                used: run.used.into(),
+                replans: run.replans,
+                operator_requests: run.operator_requests,
+            })
+        });
+    }
+}
