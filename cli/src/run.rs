@@ -19,6 +19,7 @@ use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Event, EventKind, Faults, FaultsFile};
 use cotama_pages::mission as page;
 use cotama_sim::options::{FaultChoice, Options, upward};
+use cotama_sim::robots::Script;
 use cotama_sim::run::{NoPlan, Reason, Run};
 use cotama_sim::trace::{RecordError, Trace};
 use std::path::{Path, PathBuf};
@@ -245,6 +246,7 @@ fn passed_over(faults: &FaultChoice, mission: &Mission) -> usize {
     };
     match mission.is_supervised() {
         false => faults.incidents.len(),
+        true if mission.robot().is_some() => Script::passed_over(faults, mission),
         true => faults.power_errors.len() + faults.events.len() + faults.random.len(),
     }
 }

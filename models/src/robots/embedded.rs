@@ -14,11 +14,16 @@ pub struct EmbeddedRobot {
 }
 
 /// All robots that come with the program.
-pub const EMBEDDED: [EmbeddedRobot; 2] = [
+pub const EMBEDDED: [EmbeddedRobot; 3] = [
     EmbeddedRobot {
         name: "p3dx-delivery",
         description: "Pioneer 3-DX of Durand et al. 2010: 8 configurations, 46 failures",
         text: include_str!("../../robots/p3dx-delivery.toml"),
+    },
+    EmbeddedRobot {
+        name: "p3dx-patrol",
+        description: "Pioneer 3-DX of Lambert et al. 2024: two lasers, Kinect, sonars",
+        text: include_str!("../../robots/p3dx-patrol.toml"),
     },
     EmbeddedRobot {
         name: "transport",

@@ -128,6 +128,8 @@ pub struct Body {
     pub speed_max: MillimetresPerSecond,
     /// How fast it speeds up and slows down, in mm/s².
     pub acceleration: u64,
+    /// The period of its control loop, and of the rounds of its supervisors.
+    pub period: Millis,
     /// The power of motion.
     pub motion_power: MotionPower,
     /// Mass, in grams, and the energy in mJ below which an impact must stay; `None` where no impact

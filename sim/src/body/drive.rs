@@ -70,6 +70,11 @@ impl Drive {
         Some(left.checked_div(step).unwrap_or(u64::MAX))
     }
 
+    /// Puts it so far back along its path; the speed stays.
+    pub(crate) fn set_back(&mut self, way: Millimetres) {
+        self.x_um = self.x_um.saturating_sub(way.0.saturating_mul(1000));
+    }
+
     /// Counts the way from here on; the speed stays.
     pub(crate) fn restart(&mut self) {
         self.x_um = 0;

@@ -1,6 +1,6 @@
 //! The failures of a robot under way: how they change its motion, and when observers see them.
 
-use crate::body::{Drive, Motion, PERIOD};
+use crate::body::{Drive, Motion};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::Persistence;
 use cotama_models::robots::{self, Mode, Parts, Robot, Where};
@@ -25,6 +25,8 @@ pub(super) struct Failure {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Failures {
     pub(super) all: Vec<Failure>,
+    /// The period of the control loop.
+    pub(super) period: Millis,
 }
 
 /// What is demanded of the motors in a period.
@@ -120,19 +122,19 @@ impl Failures {
                 }
             }
         }
-        drive.go(towards, end, PERIOD);
+        drive.go(towards, end, self.period);
     }
 
     /// Observers look for a period; returns the failures that are seen from now on.
     pub(super) fn look(&mut self, robot: &Robot, place: Where) -> Vec<usize> {
-        let broken = self.broken(robot);
+        let (broken, period) = (self.broken(robot), self.period.0);
         let mut seen = Vec::new();
         for (at, it) in self.all.iter_mut().enumerate() {
             let Some(row) = robot.failures.get(it.number) else { continue };
             if it.over || it.found || !can_see(robot, row, broken, place) {
                 continue;
             }
-            it.seen.0 += PERIOD.0;
+            it.seen.0 += period;
             if it.seen >= row.latency {
                 it.found = true;
                 seen.push(at);
@@ -146,17 +148,17 @@ impl Failures {
         let broken = self.broken(robot);
         let open = self.open(robot).filter(|it| !it.0.found);
         let open = open.filter(|it| can_see(robot, it.1, broken, place));
-        let left = open.map(|it| it.1.latency.0.saturating_sub(it.0.seen.0).div_ceil(PERIOD.0));
+        let left = open.map(|it| it.1.latency.0.saturating_sub(it.0.seen.0).div_ceil(self.period.0));
         left.min().map_or(u64::MAX, |it| it.saturating_sub(1))
     }
 
     /// Observers look for so many periods in which they see nothing new.
     pub(super) fn look_on(&mut self, robot: &Robot, place: Where, periods: u64) {
-        let broken = self.broken(robot);
+        let (broken, period) = (self.broken(robot), self.period.0);
         for it in self.all.iter_mut().filter(|it| !it.over && !it.found) {
             let row = robot.failures.get(it.number);
             if row.is_some_and(|it| can_see(robot, it, broken, place)) {
-                it.seen.0 += PERIOD.0 * periods;
+                it.seen.0 += period * periods;
             }
         }
     }

@@ -17,6 +17,7 @@
 //! ```
 
 mod failing;
+mod hindered;
 mod operator;
 mod records;
 mod summary;
@@ -30,9 +31,9 @@ use cotama_core::player::{Packed, Program, words};
 use cotama_core::system::{System, SystemError};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::Mission;
-use cotama_models::missions::faults::Faults;
+use cotama_models::missions::faults::{Event, EventKind, Faults, PowerError};
 use cotama_models::robots::supervisors::{self, OwnedSystem};
-use cotama_models::robots::{Answer, Decision, IncidentKind, Moment, Told};
+use cotama_models::robots::{Answer, Decision, IncidentKind, Moment, RobotFile, Told};
 use std::collections::VecDeque;
 use world::World;
 
@@ -43,6 +44,10 @@ pub struct Script {
     pub injections: Vec<Injection>,
     /// The operator's answers to requests, in their order; where there is none he has his habits.
     pub answers: Vec<Answers>,
+    /// Obstacles, and positions that were wrong, sorted by place.
+    pub events: Vec<Event>,
+    /// By how much the real power differs from the modelled one, by zone.
+    pub power_errors: Vec<PowerError>,
 }
 
 /// A failure that is to happen.
@@ -67,10 +72,23 @@ pub struct Answers {
     pub delay: Millis,
 }
 
-impl From<&Faults> for Script {
-    /// The failures and answers of a mission's own script.
-    fn from(faults: &Faults) -> Self {
-        let mut script = Self::default();
+impl Script {
+    /// The failures, events and answers of a script of a mission. A fault of hardware is the
+    /// failure of the robot's file that takes a unit of it, and nothing else; one that no failure
+    /// takes is [passed over](Self::passed_over). So are random events.
+    pub fn of(faults: &Faults, mission: &Mission) -> Self {
+        let (events, power_errors) = (faults.events.clone(), faults.power_errors.clone());
+        let mut script = Self { events, power_errors, ..Self::default() };
+        for it in &faults.events {
+            if let EventKind::Fault { hardware, units } = it.kind {
+                let taken: Vec<_> = script.injections.iter().map(|it| it.failure).collect();
+                let (when, until) = (Moment::Place(it.x), None);
+                let all = units_of(mission, hardware).into_iter().filter(|it| !taken.contains(it));
+                let all = all.take(usize::from(units));
+                let all = all.map(|failure| Injection { when, failure, until });
+                script.injections.extend(all);
+            }
+        }
         for incident in &faults.of_robot {
             let when = incident.when;
             match &incident.kind {
@@ -92,6 +110,29 @@ impl From<&Faults> for Script {
         }
         script
     }
+
+    /// Returns how many of the faults of a script no robot's file says.
+    pub fn passed_over(faults: &Faults, mission: &Mission) -> usize {
+        let lost = |it: &&Event| match it.kind {
+            EventKind::Fault { hardware, .. } => units_of(mission, hardware).is_empty(),
+            EventKind::Repair { .. } => true,
+            EventKind::Obstacle { .. } | EventKind::Odometry { .. } => false,
+        };
+        faults.events.iter().filter(lost).count() + faults.random.len()
+    }
+}
+
+/// The failures that take one unit of a kind of hardware of a mission, and nothing else.
+fn units_of(mission: &Mission, hardware: usize) -> Vec<usize> {
+    let Some(robot) = mission.robot().map(RobotFile::robot) else { return Vec::new() };
+    let Some(kind) = mission.hardware.get(hardware) else { return Vec::new() };
+    let is_unit = |it: &cotama_models::robots::Failure| {
+        let of = it.loses.hardware.trailing_zeros() as usize;
+        it.loses.hardware.count_ones() == 1
+            && it.loses.modules == 0
+            && robot.hardware.get(of).is_some_and(|it| it.kind == kind.name)
+    };
+    (0..robot.failures.len()).filter(|it| robot.failures.get(*it).is_some_and(is_unit)).collect()
 }
 
 /// The result of a run.

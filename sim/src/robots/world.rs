@@ -5,10 +5,11 @@
 //! a run is a run of the nets that were checked.
 
 use super::failing::{Demand, Failures, mode, moves};
+use super::hindered::Hindered;
 use super::operator::{Operator, View};
 use super::records::Recording;
 use super::{Conduct, Injection, Run, Script};
-use crate::body::{Drive, PERIOD};
+use crate::body::Drive;
 use crate::plan::{Planning, Progress};
 use crate::record::Recorder;
 use crate::run::{LONGEST, Outcome, PlanCause};
@@ -41,6 +42,7 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     waiting: Vec<Injection>,
     until: Vec<Option<Moment>>,
     failures: Failures,
+    hindered: Hindered,
     operator: Operator,
     /// The parts that are known to be lost.
     pub(super) known: Parts,
@@ -100,7 +102,8 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             energy_uj: 0,
             waiting: script.injections.clone(),
             until: Vec::new(),
-            failures: Failures::default(),
+            failures: Failures { period: body.period, ..Failures::default() },
+            hindered: Hindered::new(&script.events, &script.power_errors),
             operator: Operator::new(&script.answers),
             known: Parts::NONE,
             untold: VecDeque::new(),
@@ -146,16 +149,17 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let before = self.drive;
         self.calm = true;
         self.fail(recording);
+        let happened = self.hindered.happen(self.now, self.drive.x());
         self.travel();
-        self.calm &= self.drive.is_steady_since(&before, PERIOD);
+        self.calm &= self.drive.is_steady_since(&before, self.body.period);
         if self.failures.thinks(self.robot) {
             self.observe(recording);
-            if self.now.0 / 1_000 != self.now.0.saturating_sub(PERIOD.0) / 1_000 {
+            if !happened.is_empty() || self.now.0 / 1_000 != self.now.0.saturating_sub(self.body.period.0) / 1_000 {
                 self.watch_margins(recording);
             }
             self.round(recording);
         }
-        self.now.0 += PERIOD.0;
+        self.now.0 += self.body.period.0;
     }
 
     /// How the mission ends, if it does.
@@ -230,18 +234,23 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
     fn travel(&mut self) {
         let before = self.drive.x();
         let permitted = self.level.permits();
-        let speed = if permitted { self.pace().0 } else { MillimetresPerSecond(0) };
+        let held = self.hindered.waits();
+        let speed = if permitted && !held { self.pace().0 } else { MillimetresPerSecond(0) };
+        if held {
+            self.drive.stand();
+        }
         let demand = Demand {
             speed,
             most: self.body.speed_max,
             halt: self.level.is_halted(),
-            end: self.goal(),
+            end: Millimetres(self.goal().0 + self.hindered.owed().0),
             led: mode(self.robot, self.place) == Some(Mode::Operator),
         };
         self.failures.go(self.robot, self.now, &demand, &mut self.drive);
         let moved = self.drive.x() > before;
-        let power = self.power(moved);
-        self.energy_uj = self.energy_uj.saturating_add(power.0.saturating_mul(PERIOD.0));
+        self.hindered.take(&mut self.drive, before);
+        let power = self.hindered.real(self.mission, before, self.power(moved));
+        self.energy_uj = self.energy_uj.saturating_add(power.0.saturating_mul(self.body.period.0));
         self.run.moved_when_safe |= moved && self.level.global() == Global::Safe;
         self.measure(before, permitted);
     }
@@ -257,7 +266,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
                 for (it, conduct) in self.failures.all.iter().zip(&mut self.run.conduct) {
                     let row = self.robot.failures.get(it.number);
                     if !it.over && row.is_some_and(|it| lacks(it.loses)) {
-                        conduct.exposed.0 += PERIOD.0;
+                        conduct.exposed.0 += self.body.period.0;
                         self.run.exposed = self.run.exposed.max(conduct.exposed);
                     }
                 }
@@ -343,7 +352,8 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let activity = self.planning.activity(self.objective, x_mm);
         let rest = if objective.travels() {
             let end = self.mission.scenario().activities.get(activity).map_or(0, |it| it.x_end.0);
-            Rest::Travel(Millimetres(end.saturating_sub(x_mm).max(1)))
+            let left = end.saturating_sub(x_mm) + self.hindered.owed().0;
+            Rest::Travel(Millimetres(left.max(1)))
         } else {
             let done = self.now.0.saturating_sub(self.objective_since.0);
             Rest::Time(Millis(self.planning.standing(activity).0.saturating_sub(done)))
@@ -463,10 +473,11 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
                     return (Some(Told::DriveWanted), Cause(0));
                 }
                 let activity = self.planning.activity(self.objective, self.drive.x().0);
-                if self.now.0 - self.objective_since.0 >= self.planning.standing(activity).0 {
-                    self.advance();
+                if self.now.0 - self.objective_since.0 < self.planning.standing(activity).0 {
+                    return none;
                 }
-                none
+                self.advance();
+                self.says()
             }
             Global::Drives => (self.drive_says(), Cause(0)),
         }
@@ -601,10 +612,11 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
     /// looked at.
     fn pass_over(&mut self) {
         let busy = !self.calm || !self.untold.is_empty() || self.level.player().round_is_due();
-        if busy || !self.failures.thinks(self.robot) {
+        let held = self.hindered.waits() || self.hindered.owed() > Millimetres(0);
+        if busy || held || !self.failures.thinks(self.robot) {
             return;
         }
-        let until = |it: Millis| (it.0.saturating_sub(self.now.0) / PERIOD.0).saturating_sub(1);
+        let until = |it: Millis| (it.0.saturating_sub(self.now.0) / self.body.period.0).saturating_sub(1);
         let mut most = until(Millis((self.now.0 / 1_000 + 1) * 1_000));
         most = most.min(until(LONGEST)).min(self.failures.unseen_for(self.robot, self.place));
         let changes = self.failures.changes(self.robot, self.now);
@@ -615,8 +627,8 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         }
         let activities = &self.mission.scenario().activities;
         let borders = activities.iter().flat_map(|it| [it.x_start, it.x_end]);
-        for border in borders.filter(|it| *it > self.drive.x()) {
-            most = most.min(self.drive.times_before(border, PERIOD).unwrap_or(0));
+        for border in borders.chain(self.hindered.next()).filter(|it| *it > self.drive.x()) {
+            most = most.min(self.drive.times_before(border, self.body.period).unwrap_or(0));
         }
         let waits = match self.level.global() {
             Global::Waits => {
@@ -640,12 +652,13 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             return;
         }
         let power = self.power(self.drive.speed().0 > 0);
-        self.drive.glide(most, PERIOD);
+        let power = self.hindered.real(self.mission, self.drive.x(), power);
+        self.drive.glide(most, self.body.period);
         self.failures.look_on(self.robot, self.place, most);
         self.energy_uj =
-            self.energy_uj.saturating_add(power.0.saturating_mul(PERIOD.0).saturating_mul(most));
+            self.energy_uj.saturating_add(power.0.saturating_mul(self.body.period.0).saturating_mul(most));
         self.exposed_on(most);
-        self.now.0 += PERIOD.0 * most;
+        self.now.0 += self.body.period.0 * most;
         self.run.rounds += most;
     }
 
@@ -658,7 +671,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
 
     /// In how many periods a moment has not come yet, with everything as it is.
     fn periods_before(&self, when: Moment) -> u64 {
-        let until = |it: u64| (it.saturating_sub(self.now.0) / PERIOD.0).saturating_sub(1);
+        let until = |it: u64| (it.saturating_sub(self.now.0) / self.body.period.0).saturating_sub(1);
         let since = |place: Option<usize>, after: Millis| {
             let first = self.first.iter().find(|it| it.0 == place);
             first.map_or(u64::MAX, |it| until(it.1.0 + after.0))
@@ -667,7 +680,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             return u64::MAX; // it has come
         }
         match when {
-            Moment::Place(x) => self.drive.times_before(x, PERIOD).unwrap_or(0),
+            Moment::Place(x) => self.drive.times_before(x, self.body.period).unwrap_or(0),
             Moment::At(at) => until(at.0),
             Moment::During(place, after) => since(Some(place), after),
             Moment::Waiting(after) => since(None, after),

@@ -206,9 +206,9 @@ fn driven(
         return Err(RecordError::Setup(SetupError::ZeroPeriod));
     }
     let script = match &options.faults {
-        FaultChoice::Script => robots::Script::from(&mission.run.faults),
+        FaultChoice::Script => robots::Script::of(&mission.run.faults, mission),
         FaultChoice::None => robots::Script::default(),
-        FaultChoice::Given { faults, .. } => robots::Script::from(faults),
+        FaultChoice::Given { faults, .. } => robots::Script::of(faults, mission),
     };
     let run = ready.run_recorded(&script, period, records);
     Ok(run.map_err(|reason| infeasible(mission, reason))?.summary(mission))

@@ -3,7 +3,7 @@
 use crate::missions::reader::fields::Fields;
 use crate::missions::{Diagnostic, MotionPower, harmless_speed};
 use crate::robots::{Body, Motion};
-use cotama_core::units::{Millijoules, MillimetresPerSecond};
+use cotama_core::units::{Millijoules, MillimetresPerSecond, Millis};
 use std::ops::RangeInclusive;
 
 /// Masses in g, accelerations in mm/s², energies in mJ.
@@ -12,6 +12,10 @@ const POSITIVE: RangeInclusive<i64> = 1..=1_000_000_000;
 const COEFFICIENTS: RangeInclusive<i64> = 0..=1_000_000_000;
 /// Speeds that a body can have, in mm/s.
 const SPEEDS: RangeInclusive<i64> = 1..=10_000;
+/// Periods of a control loop in ms, and the one where nothing is said (stated for the delivery:
+/// below 0.1 s a loop).
+const PERIODS: RangeInclusive<i64> = 10..=1_000;
+const PERIOD: Millis = Millis(100);
 const MOTIONS: [(&str, Motion); 5] = [
     ("blocked", Motion::Blocked),
     ("runaway", Motion::Runaway),
@@ -23,6 +27,7 @@ const MOTIONS: [(&str, Motion); 5] = [
 pub(super) fn body(mut fields: Fields<'_>) -> Option<Body> {
     let speed_max = fields.integer("speed_max_mm_s", SPEEDS).map(MillimetresPerSecond);
     let acceleration = fields.integer("acceleration_mm_s2", POSITIVE);
+    let period = fields.optional_integer("period_ms", PERIODS);
     let motion_power = fields.table("motion_power").and_then(|mut it| {
         let c0 = it.integer("c0", COEFFICIENTS);
         let c1 = it.integer("c1", COEFFICIENTS);
@@ -53,6 +58,7 @@ pub(super) fn body(mut fields: Fields<'_>) -> Option<Body> {
     Some(Body {
         speed_max: speed_max?,
         acceleration: acceleration?,
+        period: period.ok()?.map_or(PERIOD, Millis),
         motion_power: motion_power?,
         impact,
         source,
