@@ -21,6 +21,7 @@ use cotama_campaign::subject::{Policy, Subject};
 use cotama_models::missions::Mission;
 use cotama_pages::campaign::{self as page, Shown};
 use cotama_sim::options::STEPS;
+use cotama_sim::trace::RobotText;
 use std::ops::ControlFlow;
 use std::path::Path;
 use store::Store;
@@ -69,10 +70,11 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
     let campaign = ready(&mission, policy, asked::settings(args, of, mission.source())?)?;
     let shard = args.shard.unwrap_or(Shard::ALL);
     let texts = (mission.source(), mission.text());
-    let usual = args.policy().policy(mission.supervisor().is_some(), STEPS);
+    let usual = args.policy().policy(mission.is_supervised(), STEPS);
     let planner = policy.planner.filter(|it| *it != usual.of(&mission));
     let header = Header::new(texts, &campaign.settings, args.policy().name(), shard);
-    conduct(args, &Header { planner, ..header }, &campaign, screen)
+    let robot = mission.robot().map(|it| RobotText::of(it));
+    conduct(args, &Header { planner, robot, ..header }, &campaign, screen)
 }
 
 /// Runs a campaign over a team.

@@ -85,11 +85,19 @@ fn of_mission(trace: &Trace) -> Option<Recording> {
     lines.sort_by_key(|it| (it.at, matches!(it.what, What::Fired(_))));
     (!lines.is_empty()).then(|| Recording {
         start: Millis(0),
-        round_every: Some(PERIOD),
+        round_every: Some(period(trace)),
         silent: SILENT.map(str::to_owned).to_vec(),
         lines,
         ..Recording::default()
     })
+}
+
+/// Returns the period of the rounds of a trace's supervisors: that of its robot's file, if there is
+/// one.
+fn period(trace: &Trace) -> Millis {
+    let mission = trace.header.mission().ok();
+    let body = mission.as_ref().and_then(|it| it.robot()?.robot().body.as_ref());
+    body.map_or(PERIOD, |it| it.period)
 }
 
 fn at_place(error: RecordingError, text: &str) -> Failure {

@@ -37,7 +37,9 @@ fn loaded(name: &str, supervised: Option<&str>) -> Result<Mission, Failure> {
         }
         (Some(""), None) => Some(robot(robot_for(name)?, None)?),
         (Some(other), None) => Some(robot(other, None)?),
-        (None, Some(of)) if !is_missing(&of, source) => Some(robot(&of, Path::new(source).parent())?),
+        (None, Some(of)) if !is_missing(&of, source) => {
+            Some(robot(&of, Path::new(source).parent())?)
+        }
         (None, _) => None,
     };
     Ok(Mission::parse_under(source, &text, robot)?)

@@ -10,8 +10,8 @@ use crate::run::{NoPlan, PlanCause, PlanMade};
 use crate::solver::{Left, Solver};
 use cotama_core::hardware::Equipment;
 use cotama_core::units::{MillimetresPerSecond, Millis, Milliwatts};
-use cotama_models::missions::{Mission, Tio};
 use cotama_models::missions::tables::{Activity, Alternative, Rest};
+use cotama_models::missions::{Mission, Tio};
 
 /// How far a mission has come.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +41,11 @@ pub(crate) struct Planning<'m, K> {
 
 impl<'m, K: Copy + PartialEq> Planning<'m, K> {
     /// The plan of a mission that is not made yet; `of` is the configuration of an option.
-    pub(crate) fn new(mission: &'m Mission, planner: Planner, of: impl Fn(&Tio) -> Option<K>) -> Self {
+    pub(crate) fn new(
+        mission: &'m Mission,
+        planner: Planner,
+        of: impl Fn(&Tio) -> Option<K>,
+    ) -> Self {
         let scenario = mission.scenario();
         let activities = scenario.activities();
         let named = |label: &String| {
@@ -162,11 +166,7 @@ impl<'m, K: Copy + PartialEq> Planning<'m, K> {
     }
 
     /// Returns the power of standing in a configuration, with its hardware on.
-    pub(crate) fn rest_power(
-        &self,
-        activity: usize,
-        configuration: Option<K>,
-    ) -> Milliwatts {
+    pub(crate) fn rest_power(&self, activity: usize, configuration: Option<K>) -> Milliwatts {
         let standing = self.mission.motion_power.at(MillimetresPerSecond(0));
         let hardware = self.mission.power_of(self.driven(activity, configuration).needs);
         Milliwatts(standing.0.saturating_add(hardware.0))

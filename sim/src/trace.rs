@@ -5,6 +5,8 @@
 //! behind the robot). Numbers are integers; durations are ms, energies mJ, powers mW, speeds mm/s.
 
 use crate::run::Outcome;
+use cotama_models::missions::MissionErrors;
+use cotama_models::robots::RobotFile;
 use serde::{Deserialize, Serialize};
 
 mod compare;
@@ -86,6 +88,21 @@ pub struct RobotText {
     pub source: String,
     /// The whole text of the file.
     pub text: String,
+}
+
+impl RobotText {
+    /// Returns the text of a robot's file.
+    pub fn of(file: &RobotFile) -> Self {
+        Self { source: file.source().into(), text: file.text().into() }
+    }
+
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// All errors of its text.
+    pub fn file(&self) -> Result<RobotFile, MissionErrors> {
+        RobotFile::parse(&self.source, &self.text)
+    }
 }
 
 /// How a mission was run.

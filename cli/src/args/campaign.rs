@@ -170,7 +170,7 @@ impl CampaignArgs {
     /// # Errors
     /// A [`Failure`] where steps are given and nothing is searched.
     pub(crate) fn policy_for(&self, mission: &Mission) -> Result<Policy, Failure> {
-        let policy = self.policy().policy(mission.supervisor().is_some(), self.steps);
+        let policy = self.policy().policy(mission.is_supervised(), self.steps);
         if policy.planner.is_some() {
             return Ok(policy);
         }

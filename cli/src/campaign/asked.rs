@@ -22,7 +22,7 @@ pub(super) enum Of {
 
 impl Of {
     pub(super) fn mission(mission: &Mission) -> Self {
-        if mission.supervisor().is_some() { Self::Supervised } else { Self::Plain }
+        if mission.is_supervised() { Self::Supervised } else { Self::Plain }
     }
 }
 

@@ -18,7 +18,7 @@ pub(super) fn compared(
 ) -> Result<Exit, Failure> {
     let of = asked::Of::mission(mission);
     let settings = asked::settings(args, of, mission.source())?;
-    let supervised = mission.supervisor().is_some();
+    let supervised = mission.is_supervised();
     let rule = ("rule", Policy { planner: Some(Planner::Panorama), ..Policy::default() });
     let own = Planner::of(mission);
     let mut named: Vec<_> = if supervised {

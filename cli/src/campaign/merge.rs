@@ -16,6 +16,7 @@ use cotama_campaign::subject::{Policy, Subject};
 use cotama_models::missions::Mission;
 use cotama_models::team::scenario::Scenario;
 use cotama_sim::options::STEPS;
+use cotama_sim::trace::RobotText;
 use std::path::Path;
 
 /// Puts shards together: the same bytes as one run.
@@ -33,10 +34,11 @@ pub(super) fn merge(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Failur
             Campaign::new(subject, settings).map_err(|it| Failure::new(it.to_string()))?;
         return merged(args, &whole, &mut parts, &campaign, screen);
     }
-    let mission = Mission::parse(&whole.mission_source, &whole.mission)?;
+    let robot = whole.robot.as_ref().map(RobotText::file).transpose()?;
+    let mission = Mission::parse_under(&whole.mission_source, &whole.mission, robot)?;
     let unknown = || Failure::new("the campaign names a policy or a setting that is not known");
     let policy = PolicyName::ALL.into_iter().find(|it| it.name() == whole.policy);
-    let policy = policy.ok_or_else(unknown)?.policy(mission.supervisor().is_some(), STEPS);
+    let policy = policy.ok_or_else(unknown)?.policy(mission.is_supervised(), STEPS);
     let policy = Policy { planner: whole.planner.or(policy.planner), ..policy };
     let subject =
         Subject::new(&mission, policy).map_err(|error| Failure::new(error.to_string()))?;

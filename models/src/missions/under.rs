@@ -104,8 +104,7 @@ impl Under {
         };
         let all: Vec<usize> = moving.configurations.clone();
         if all.len() > MAX_KINDS {
-            let message =
-                format!("`{}` has more than {MAX_KINDS} configurations", moving.name);
+            let message = format!("`{}` has more than {MAX_KINDS} configurations", moving.name);
             return refused(message, "leave some out");
         }
         let (mut hardware, mut tios) = (Vec::new(), Vec::new());
@@ -127,8 +126,7 @@ impl Under {
                 configuration: None,
             });
         }
-        let harmless =
-            body.impact.map(|(mass, energy)| harmless_speed(mass, Millijoules(energy)));
+        let harmless = body.impact.map(|(mass, energy)| harmless_speed(mass, Millijoules(energy)));
         let (mass_g, energy) = body.impact.unwrap_or((0, u64::MAX));
         Some(Of {
             under: Self { file: file.clone(), configurations: all, modules: Vec::new() },
@@ -174,7 +172,8 @@ impl Under {
 /// The power of all hardware that these modules stand on.
 pub(super) fn power_of(robot: &robots::Robot, modules: u64) -> Milliwatts {
     let used = (0..robot.modules.len()).filter(|it| modules >> it & 1 == 1);
-    let used = used.filter_map(|it| robot.modules.get(it)).fold(0, |all, it| all | it.needs.hardware);
+    let used =
+        used.filter_map(|it| robot.modules.get(it)).fold(0, |all, it| all | it.needs.hardware);
     let all = robot.hardware.iter().enumerate().filter(|it| used >> it.0 & 1 == 1);
     Milliwatts(all.map(|it| it.1.power.0).sum())
 }

@@ -60,7 +60,9 @@ pub struct Level<'r, P, const W: usize, const C: usize, const S: usize> {
     player: Player<P, W, C, S, Cause>,
 }
 
-impl<'r, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Level<'r, P, W, C, S> {
+impl<'r, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
+    Level<'r, P, W, C, S>
+{
     /// The supervisors of a robot at rest.
     pub fn start(robot: &'r Robot, program: P) -> Self {
         let numbers = Numbers::of(robot, &program.system());

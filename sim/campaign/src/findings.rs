@@ -169,6 +169,8 @@ fn story(subject: &Subject<'_>, plan: &Plan, run: &Observed) -> Vec<String> {
                 text.component,
                 text.failure
             ));
+        } else if let Fault::Row(it) = fault {
+            lines.push(subject.story_of_row(it));
         } else if let Fault::Event(it) = fault {
             let what = subject.signature(&Plan { faults: vec![fault.clone()] });
             let size = match it.kind {

@@ -2,8 +2,10 @@
 
 use cotama_models::cotama::{Diagnosis, FailureMode, local};
 use cotama_models::missions::faults::Moment;
+use cotama_models::robots::{self as row, Body, Robot};
 use cotama_sim::body::{Motion, effect};
 use cotama_sim::fleet::{self, record::Fate};
+use cotama_sim::robots;
 use cotama_sim::run::Outcome;
 use cotama_sim::streams::fnv1a;
 use cotama_sim::supervised::{self, Monitor};
@@ -52,6 +54,10 @@ pub struct Observed {
     /// Whether a motor ran away, so that it could not brake as it was told.
     #[serde(skip)]
     pub ran_away: bool,
+    /// How long the robot may have moved without a required module, and how far it may have gone on
+    /// without a permit; `None` where the plan of faults says it.
+    #[serde(skip)]
+    pub allowed: Option<(u64, u64)>,
     /// Failures and the state of the local supervisor then: rows of the FMECA by state.
     #[serde(skip)]
     pub met: Vec<(FailureMode, local::State)>,
@@ -109,6 +115,7 @@ impl Observed {
             unseen_ms: 0,
             planned_with_lost: false,
             ran_away: false,
+            allowed: None,
             met: Vec::new(),
             features: Vec::new(),
             fired: Vec::new(),
@@ -138,6 +145,50 @@ impl Observed {
             energy_mj: run.energy_mj,
             replans: u64::from(run.reopened),
             features,
+            ..Self::nothing()
+        }
+    }
+
+    /// Returns the observations of a run under the supervisors of a robot's file.
+    pub(super) fn of_robot(run: &robots::Run, robot: &Robot, monitors: &[Monitor]) -> Self {
+        let mut features = vec![feature("outcome", &[run.outcome as u64])];
+        features.extend(run.fired.iter().map(|it| feature("fired", &[fnv1a(it.as_bytes())])));
+        let runs = run.configurations.iter().map(|it| it.1.map_or(0, |it| it as u64 + 1));
+        let runs: Vec<u64> = runs.collect();
+        features.extend(runs.windows(2).map(|it| feature("runs", it)));
+        for it in &run.conduct {
+            let taken = it.taken_for.first().map_or(0, |it| *it as u64 + 1);
+            let decided = it.decided.map_or(9, |it| it.1 as u64);
+            features.push(feature("found", &[it.failure as u64, taken, decided]));
+            features.push(feature("exposed", &[it.failure as u64, it.exposed.0.ilog2_or_zero()]));
+        }
+        features.sort_unstable();
+        features.dedup();
+        let row = |it: &robots::Conduct| robot.failures.get(it.failure);
+        let runs_away =
+            |it: &robots::Conduct| row(it).is_some_and(|it| it.motion == Motion::Runaway);
+        Self {
+            outcome: run.outcome,
+            time_ms: run.used[0],
+            energy_mj: run.used[1],
+            x_mm: run.x.0,
+            requests: run.operator_requests,
+            replans: run.plans.len().saturating_sub(1) as u64,
+            exposed_ms: run.exposed.0,
+            braked_mm: run.braked.0,
+            moved_when_safe: run.moved_when_safe,
+            ran_away: run.conduct.iter().any(runs_away),
+            allowed: robot.body.as_ref().map(|body| {
+                let rows = run.conduct.iter().filter_map(row);
+                (rows.map(|it| allowed_ms(it, body)).sum(), braking_mm(body))
+            }),
+            features,
+            fired: run.fired.iter().cloned().collect(),
+            witness: run.violated.as_ref().map(|it| Witness {
+                requirement: monitors.get(it.monitor).map_or("", Monitor::text).to_owned(),
+                at_ms: it.at.0,
+                seen: it.fired.clone(),
+            }),
             ..Self::nothing()
         }
     }
@@ -187,12 +238,29 @@ impl Observed {
             unseen_ms: run.unseen.0,
             planned_with_lost: run.planned_with_lost,
             ran_away: run.conduct.iter().any(runs_away),
+            allowed: None,
             met: run.conduct.iter().map(|it| (it.mode, it.during)).collect(),
             features,
             fired: fired.into_iter().map(|(net, it)| format!("{net}.{it}")).collect(),
             witness: Witness::of(run, monitors),
         }
     }
+}
+
+/// How long a failure lets the robot move without a required module: until it is seen, also after
+/// each time that a module is started anew for it, told, decided and answered, a round each, and the
+/// robot stands.
+fn allowed_ms(row: &row::Failure, body: &Body) -> u64 {
+    let times = 1 + row.restarts.map_or(0, |it| u64::from(it.times));
+    let rounds = 5 * body.period.0;
+    let brakes = body.speed_max.0.saturating_mul(1_000) / body.acceleration.max(1);
+    times.saturating_mul(row.latency.0 + rounds).saturating_add(brakes)
+}
+
+/// The braking distance from the largest speed, with a period before it begins.
+fn braking_mm(body: &Body) -> u64 {
+    let v = body.speed_max.0;
+    v * v / (2 * body.acceleration.max(1)) + v * body.period.0 / 1_000 + 1
 }
 
 impl Witness {

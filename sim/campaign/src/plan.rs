@@ -6,8 +6,10 @@ use cotama_models::missions::Definition;
 use cotama_models::missions::faults::{
     Event, EventKind, Faults, Incident, IncidentKind, PowerError,
 };
+use cotama_models::robots as row;
 use cotama_models::team::scenario::{self, FaultKind};
 use cotama_sim::faults_text::faults_text;
+use cotama_sim::robots;
 use cotama_sim::supervised::{Answers, Injection, Script, When};
 
 /// The faults of one run.
@@ -66,6 +68,10 @@ pub enum Fault {
     Event(Event),
     /// Real power differs from the modelled one in a zone of such a mission.
     Power(PowerError),
+    /// A failure of a robot's file, in a mission under its supervisors.
+    Row(robots::Injection),
+    /// The answers of the operator of such a robot to the first request from a place on.
+    Replies(robots::Answers),
     /// Something that goes wrong in a team.
     Team(scenario::Fault),
 }
@@ -93,7 +99,8 @@ impl Fault {
                 format!("{} of {}", mode.name(), part.name())
             }
             Self::Failure { mode, .. } => mode.name().to_owned(),
-            Self::Operator(_) => "operator".to_owned(),
+            Self::Operator(_) | Self::Replies(_) => "operator".to_owned(),
+            Self::Row(it) => format!("failure {}", it.failure),
             Self::Event(it) => match it.kind {
                 EventKind::Obstacle { .. } => "obstacle".to_owned(),
                 EventKind::Odometry { .. } => "odometry".to_owned(),
@@ -126,7 +133,11 @@ impl From<&Faults> for Plan {
         let answers = script.answers.into_iter().map(Fault::Operator);
         let events = faults.events.iter().copied().map(Fault::Event);
         let powers = faults.power_errors.iter().copied().map(Fault::Power);
-        Self { faults: failures.chain(answers).chain(events).chain(powers).collect() }
+        let own = robots::Script::from(&faults.of_robot[..]);
+        let rows = own.injections.into_iter().map(Fault::Row);
+        let replies = own.answers.into_iter().map(Fault::Replies);
+        let all = failures.chain(answers).chain(events).chain(powers).chain(rows).chain(replies);
+        Self { faults: all.collect() }
     }
 }
 
@@ -155,6 +166,15 @@ impl From<&Plan> for Faults {
                         None => faults.power_errors.push(*it),
                     }
                 }
+                Fault::Row(robots::Injection { when, failure, until }) => {
+                    let kind = row::IncidentKind::Failure { failure: *failure, until: *until };
+                    faults.of_robot.push(row::Incident { when: *when, kind });
+                }
+                Fault::Replies(it) => {
+                    let (answers, delay) = (it.answers.iter().copied().collect(), it.delay);
+                    let kind = row::IncidentKind::Operator { answers, delay };
+                    faults.of_robot.push(row::Incident { when: row::Moment::Place(it.x), kind });
+                }
                 // No mission has one.
                 Fault::Team(_) => {}
             }
@@ -162,6 +182,7 @@ impl From<&Plan> for Faults {
         // As a file is read, so that a plan is run as its file is.
         faults.events.sort_by_key(|it| it.x);
         faults.incidents.sort_by_key(|it| it.when.key());
+        faults.of_robot.sort_by_key(|it| it.when);
         faults
     }
 }
@@ -176,10 +197,13 @@ impl Plan {
     /// Whether all its places lie on a path of this length.
     pub fn is_within(&self, path: Millimetres) -> bool {
         let on_it = |when: When| !matches!(when, When::Place(x) if x > path);
+        let on_path = |when| !matches!(when, row::Moment::Place(x) if x > path);
         self.faults.iter().all(|it| match it {
             Fault::Failure { when, until, .. } => on_it(*when) && until.is_none_or(on_it),
             Fault::Operator(it) => it.x <= path,
             Fault::Event(it) => it.x <= path,
+            Fault::Row(it) => on_path(it.when) && it.until.is_none_or(on_path),
+            Fault::Replies(it) => it.x <= path,
             Fault::Power(_) | Fault::Team(_) => true,
         })
     }
@@ -234,6 +258,11 @@ impl Plan {
             Fault::Power(it) => {
                 let zone = mission.zones.get(it.zone).map_or("a zone", |it| it.id.as_str());
                 format!("power in {zone}")
+            }
+            Fault::Row(it) => {
+                let robot = mission.under.as_ref().map(|it| it.file.robot());
+                let row = robot.and_then(|robot| robot.failures.get(it.failure));
+                row.map_or_else(|| fault.name(), |it| it.id.clone())
             }
             _ => fault.name(),
         };

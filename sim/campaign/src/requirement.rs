@@ -29,7 +29,7 @@ pub enum Requirement {
     NotFailed,
     /// The robot never moves after it is safe.
     StandsWhenSafe,
-    /// The robot brakes within [`BRAKING_MM`] when the permit to move is gone, unless a motor ran
+    /// The robot brakes within [`BRAKING_MM`], or what its file says, when the permit to move is gone, unless a motor ran
     /// away.
     Brakes,
     /// The robot never moves without a module that it requires for longer than the failures of the
@@ -136,8 +136,10 @@ impl Requirement {
             Self::NotFailed => i64::from(run.outcome != Outcome::Failed),
             Self::StandsWhenSafe => i64::from(!run.moved_when_safe),
             Self::Brakes if run.ran_away => 1,
-            Self::Brakes => left(BRAKING_MM, run.braked_mm),
-            Self::InTime => left(allowed_ms(plan), run.exposed_ms),
+            Self::Brakes => left(run.allowed.map_or(BRAKING_MM, |it| it.1), run.braked_mm),
+            Self::InTime => {
+                left(run.allowed.map_or_else(|| allowed_ms(plan), |it| it.0), run.exposed_ms)
+            }
             Self::AtMost(metric, limit) => left(*limit, metric.of(run)),
             Self::Never(transition) => i64::from(run.fired.binary_search(transition).is_err()),
             Self::SeenInTime => left(0, run.unseen_ms),

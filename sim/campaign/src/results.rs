@@ -6,6 +6,7 @@ use crate::space::Rates;
 use crate::strategy::StrategyName;
 use cotama_sim::options::Planner;
 use cotama_sim::run::Outcome;
+use cotama_sim::trace::RobotText;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -24,6 +25,9 @@ pub struct Header {
     pub mission_source: String,
     /// The whole text of the mission file.
     pub mission: String,
+    /// The file of the robot whose supervisors decide; `None` where none does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub robot: Option<RobotText>,
     /// Number of runs.
     pub runs: u64,
     /// The seed of all draws.
@@ -59,6 +63,7 @@ impl Header {
             version: env!("CARGO_PKG_VERSION").into(),
             mission_source: mission_source.into(),
             mission: mission.into(),
+            robot: None,
             runs: settings.runs,
             seed: settings.seed,
             strategy: settings.strategy.name().into(),

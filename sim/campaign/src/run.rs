@@ -228,7 +228,8 @@ impl<'m> Campaign<'m> {
     fn line(&self, run: u64, plan: &Plan, observed: Observed) -> Line {
         let broken = self.settings.requirements.iter().filter(|it| !it.holds(plan, &observed));
         let violated: Requirements = broken.cloned().collect();
-        let faults = if self.subject.is_supervised() {
+        let of_robot = plan.faults.iter().any(|it| matches!(it, crate::plan::Fault::Row(_)));
+        let faults = if self.subject.is_supervised() && !of_robot {
             let met = observed.met.iter();
             met.map(|(mode, state)| format!("{}@{}", mode.name(), state_name(*state))).collect()
         } else {

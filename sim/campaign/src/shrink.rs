@@ -10,7 +10,9 @@ use crate::requirement::Requirement;
 use crate::subject::Subject;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::faults::EventKind;
+use cotama_models::robots as row;
 use cotama_models::team::scenario::{self, FaultTime};
+use cotama_sim::robots;
 use cotama_sim::supervised::When;
 
 /// The most runs that one plan is shrunk with.
@@ -167,6 +169,18 @@ fn simpler(fault: &Fault, number: usize) -> Vec<Fault> {
             };
             moments(*until).into_iter().map(with).collect()
         }
+        (Fault::Row(it), 0) if it.until.is_some() => {
+            vec![Fault::Row(robots::Injection { until: None, ..*it })]
+        }
+        (Fault::Row(it), 2) => {
+            let with = |when| Fault::Row(robots::Injection { when, ..*it });
+            row_moments(it.when).into_iter().map(with).collect()
+        }
+        (Fault::Row(robots::Injection { until: Some(until), .. }), 3) => {
+            let Fault::Row(it) = fault else { return Vec::new() };
+            let with = |until| Fault::Row(robots::Injection { until: Some(until), ..*it });
+            row_moments(*until).into_iter().map(with).collect()
+        }
         (Fault::Event(it), 0) => {
             let kind = |kind| Fault::Event(cotama_models::missions::faults::Event { kind, ..*it });
             match it.kind {
@@ -221,6 +235,27 @@ fn moments(when: When) -> Vec<When> {
         }
         When::Fired(act, after) => {
             round(after.0, 0).into_iter().map(|it| When::Fired(act, Millis(it))).collect()
+        }
+    };
+    start.into_iter().chain(rounder).collect()
+}
+
+/// The same of a failure of a robot's file.
+fn row_moments(when: row::Moment) -> Vec<row::Moment> {
+    let start = row::Moment::At(Millis(0));
+    let start = (when != start).then_some(start);
+    let rounder: Vec<_> = match when {
+        row::Moment::Place(x) => {
+            round(x.0, 0).into_iter().map(|it| row::Moment::Place(Millimetres(it))).collect()
+        }
+        row::Moment::At(time) => {
+            round(time.0, 0).into_iter().map(|it| row::Moment::At(Millis(it))).collect()
+        }
+        row::Moment::During(part, after) => {
+            round(after.0, 0).into_iter().map(|it| row::Moment::During(part, Millis(it))).collect()
+        }
+        row::Moment::Waiting(after) => {
+            round(after.0, 0).into_iter().map(|it| row::Moment::Waiting(Millis(it))).collect()
         }
     };
     start.into_iter().chain(rounder).collect()

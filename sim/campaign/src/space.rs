@@ -6,8 +6,10 @@ use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{FailureMode, Module, local};
 use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Answer, Event, EventKind, Moment, PowerError};
+use cotama_models::robots as row;
 use cotama_models::team::scenario::{self, FaultKind, FaultTime, Scenario};
 use cotama_sim::fleet;
+use cotama_sim::robots;
 use cotama_sim::streams::Stream;
 use cotama_sim::supervised::{Answers, PERIOD, Script, Supervised, When};
 
@@ -38,6 +40,9 @@ pub struct Space {
     pub supervised: bool,
     /// Whether a moment is a time, and nothing else: of a team.
     pub timed: bool,
+    /// The sub-objectives of a mission whose robot has a file of its own, each with whether it is
+    /// the operator's; empty for other missions.
+    pub parts: Vec<bool>,
     /// When supervisors act if nothing fails, in ms, each once, in order.
     pub acts_ms: Vec<u64>,
 }
@@ -69,6 +74,8 @@ pub struct Weighted {
 pub enum Kind {
     /// A row of the FMECA; of a row about one module, whichever it is, the module is drawn too.
     Failure(FailureMode),
+    /// A failure of a robot's file, by its number.
+    Row(usize),
     /// An obstacle, for 1 to 60 s (assumed).
     Obstacle,
     /// So much more path to drive, 0.1 to 5 m (assumed).
@@ -165,6 +172,9 @@ impl Space {
     /// Returns the space of this mission: under supervisors every row of the FMECA, else obstacles,
     /// wrong odometry, lost hardware, and power that differs by zone.
     pub fn of(mission: &Mission, rates: Rates, faults: std::ops::RangeInclusive<u64>) -> Self {
+        if let Some(robot) = mission.robot() {
+            return Self::of_robot(mission, robot.robot(), rates, faults);
+        }
         let supervised = mission.supervisor().is_some();
         let kinds = if supervised {
             let one =
@@ -185,7 +195,35 @@ impl Space {
         let (path_mm, limit) = (mission.path_length.0, mission.limits[0]);
         let (least, most) = (*faults.start(), (*faults.end()).max(*faults.start()));
         let time_ms = (limit / 2).max(1);
-        Self { kinds, least, most, path_mm, time_ms, supervised, timed: false, acts_ms }
+        let (timed, parts) = (false, Vec::new());
+        Self { kinds, least, most, path_mm, time_ms, supervised, timed, parts, acts_ms }
+    }
+
+    /// Returns the space of a mission whose robot has a file: every failure of it.
+    fn of_robot(
+        mission: &Mission,
+        robot: &row::Robot,
+        rates: Rates,
+        faults: std::ops::RangeInclusive<u64>,
+    ) -> Self {
+        let weight = |it: &row::Failure| match rates {
+            Rates::Even => 1,
+            Rates::Fmeca => it.mean_mh.map_or(1, |mean| (LONGEST_MTBF_MH / mean.max(1)).max(1)),
+        };
+        let kinds = robot.failures.iter().enumerate();
+        let one = |(at, it)| Weighted { kind: Kind::Row(at), weight: weight(it) };
+        let operators = |it: &row::SubObjective| it.mode == row::Mode::Operator;
+        Self {
+            kinds: kinds.map(one).collect(),
+            least: *faults.start(),
+            most: (*faults.end()).max(*faults.start()),
+            path_mm: mission.path_length.0,
+            time_ms: (mission.limits[0] / 2).max(1),
+            supervised: false,
+            timed: false,
+            parts: robot.sub_objectives.iter().map(operators).collect(),
+            acts_ms: Vec::new(),
+        }
     }
 
     /// Returns the space of this team: every row of the FMECA on every robot, and objects that are
@@ -216,6 +254,7 @@ impl Space {
             time_ms: undisturbed.end_ms.max(1),
             supervised: false,
             timed: true,
+            parts: Vec::new(),
             acts_ms: Vec::new(),
         }
     }
@@ -249,6 +288,16 @@ impl Space {
                 let part = mode.rule().one_module.then(|| self.part(stream));
                 let until = (stream.below(4) == 0).then(|| self.end(when, stream));
                 Fault::Failure { when, mode, part, until }
+            }
+            Kind::Row(failure) => {
+                let when = match when {
+                    When::Place(x) => row::Moment::Place(x),
+                    When::At(at) => row::Moment::At(at),
+                    When::During(..) | When::Fired(..) => self.row_moment(stream),
+                };
+                let when = if stream.below(3) == 0 { self.row_moment(stream) } else { when };
+                let until = (stream.below(4) == 0).then(|| row_end(when, self.path_mm, stream));
+                Fault::Row(robots::Injection { when, failure, until })
             }
             Kind::Obstacle => {
                 event(EventKind::Obstacle { delay: Millis(1_000 * (1 + stream.below(60))) })
@@ -290,6 +339,21 @@ impl Space {
         }
     }
 
+    /// Draws a moment for a failure of a robot's file: a place of its drive, a time, or a place of
+    /// the path, as often each.
+    pub fn row_moment(&self, stream: &mut Stream) -> row::Moment {
+        let after = Millis(stream.below(20_000));
+        match stream.below(3) {
+            0 => row::Moment::At(Millis(stream.below(self.time_ms))),
+            1 => row::Moment::Place(Millimetres(stream.below(self.path_mm + 1))),
+            _ => {
+                let part = stream.below(self.parts.len() as u64 + 1) as usize;
+                let waits = part == self.parts.len();
+                if waits { row::Moment::Waiting(after) } else { row::Moment::During(part, after) }
+            }
+        }
+    }
+
     /// A moment from which on a failure is seen in one of four rounds: that in which a supervisor
     /// acts if nothing fails, or the three before. None where no supervisor acts.
     pub fn race(&self, mode: FailureMode, stream: &mut Stream) -> Option<When> {
@@ -303,12 +367,31 @@ impl Space {
     /// An operator who does not answer as he usually does: what can be said to a request, and
     /// sometimes something more, each after up to 20 s (assumed), from some place on.
     pub fn answers(&self, stream: &mut Stream) -> Fault {
+        if !self.parts.is_empty() {
+            return self.replies(stream);
+        }
         let x = Millimetres(stream.below(self.path_mm + 1) * stream.below(2));
         let answer = |stream: &mut Stream| ANSWERS[stream.below(ANSWERS.len() as u64) as usize];
         let first = ANSWERS[stream.below(TO_A_REQUEST) as usize];
         let more = stream.below(2);
         let answers = std::iter::once(first).chain((0..more).map(|_| answer(stream))).collect();
         Fault::Operator(Answers { x, answers, delay: Millis(1_000 * stream.below(21)) })
+    }
+
+    /// The same of the operator of a robot that has a file.
+    fn replies(&self, stream: &mut Stream) -> Fault {
+        let x = Millimetres(stream.below(self.path_mm + 1) * stream.below(2));
+        let his: Vec<_> = (0..self.parts.len()).filter(|it| self.parts[*it]).collect();
+        let chosen = (0..=stream.below(2)).filter(|_| !his.is_empty());
+        let chosen = chosen.map(|_| stream.below(his.len().max(1) as u64) as usize);
+        let chosen: Vec<_> = chosen.map(|it| row::Answer::Chooses(his[it])).collect();
+        let last = if chosen.is_empty() || stream.below(4) == 0 {
+            row::Answer::GivesUp
+        } else {
+            row::Answer::Done
+        };
+        let answers = chosen.into_iter().chain([last]).collect();
+        Fault::Replies(robots::Answers { x, answers, delay: Millis(1_000 * stream.below(21)) })
     }
 
     /// Draws an end for what begins at a moment.
@@ -334,6 +417,22 @@ impl Space {
         let states = STATES.map(|state| When::During(state, Millis(500)));
         let states = states.into_iter().filter(|_| self.supervised);
         places.into_iter().chain(states).collect()
+    }
+}
+
+/// Draws an end for what begins at a moment.
+fn row_end(begin: row::Moment, path_mm: u64, stream: &mut Stream) -> row::Moment {
+    match begin {
+        row::Moment::Place(x) => {
+            row::Moment::Place(Millimetres((x.0 + 1 + stream.below(20_000)).min(path_mm)))
+        }
+        row::Moment::At(time) => row::Moment::At(Millis(time.0 + 1 + stream.below(120_000))),
+        row::Moment::During(part, after) => {
+            row::Moment::During(part, Millis(after.0 + 1 + stream.below(60_000)))
+        }
+        row::Moment::Waiting(after) => {
+            row::Moment::Waiting(Millis(after.0 + 1 + stream.below(60_000)))
+        }
     }
 }
 

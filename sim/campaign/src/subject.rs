@@ -8,9 +8,11 @@ use crate::space::{Rates, Space};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Definition, Mission};
+use cotama_models::robots::{Moment, RobotFile};
 use cotama_models::team::scenario::{self, FaultKind, FaultTime, Scenario};
 use cotama_sim::fleet;
 use cotama_sim::options::{FaultChoice, Options, Planner, upward};
+use cotama_sim::robots::{self, Driven, Undriven};
 use cotama_sim::run::NoPlan;
 use cotama_sim::setup::{SetupError, Simulation};
 use cotama_sim::supervised::{Monitor, Script, Supervised, Unmonitored, Unsupervised};
@@ -40,6 +42,8 @@ pub struct Subject<'m> {
 enum Robot<'m> {
     Plain(&'m Mission, Box<Simulation<'m>>),
     Supervised(&'m Mission, Box<Supervised<'m>>, Watched),
+    /// Under the supervisors of a robot's file.
+    Driven(&'m Mission, Box<Driven<'m>>, Vec<Monitor>),
     Team(Box<Scenario>, Option<fleet::Planted>),
 }
 
@@ -122,6 +126,8 @@ pub enum Unready {
     Setup(SetupError),
     /// The supervisors cannot be made.
     Unsupervised(Unsupervised),
+    /// The supervisors of the robot's file cannot be played.
+    Undriven(Undriven),
     /// The mission has no plan, even if nothing fails: the reason, and the same in words.
     NoPlan(NoPlan, String),
     /// The policy is for missions without supervisors.
@@ -139,6 +145,7 @@ impl fmt::Display for Unready {
         match self {
             Self::Setup(error) => error.fmt(f),
             Self::Unsupervised(error) => error.fmt(f),
+            Self::Undriven(error) => error.fmt(f),
             Self::NoPlan(_, why) => write!(
                 f,
                 "there is no plan even if nothing fails: {why}\n  help: `cotama plan MISSION` says \
@@ -169,7 +176,15 @@ impl<'m> Subject<'m> {
     /// An [`Unready`] for a mission that cannot be run, or not by this policy.
     pub fn new(mission: &'m Mission, policy: Policy) -> Result<Self, Unready> {
         let no_plan = |why: NoPlan| Unready::NoPlan(why, why.text(mission));
-        let robot = if mission.supervisor().is_some() {
+        let robot = if mission.robot().is_some() {
+            if policy.upward || policy.rigid {
+                return Err(Unready::Policy);
+            }
+            let driven = Driven::new(mission).map_err(Unready::Undriven)?;
+            let driven = driven.with_planner(policy.of(mission));
+            driven.run(&robots::Script::default()).map_err(no_plan)?;
+            Robot::Driven(mission, Box::new(driven), Vec::new())
+        } else if mission.supervisor().is_some() {
             if policy.upward || policy.rigid {
                 return Err(Unready::Policy);
             }
@@ -246,6 +261,14 @@ impl<'m> Subject<'m> {
     /// ```
     pub fn watching(self, requirements: &[Requirement]) -> Result<Self, Unready> {
         let about = |it: &&Requirement| it.needs_supervisors();
+        if let Robot::Driven(mission, driven, _) = self.robot {
+            let monitors = watched(requirements, |text| driven.monitor(text))?;
+            if requirements.contains(&Requirement::Conforms) {
+                return Err(Unready::Shipped);
+            }
+            let driven = driven.with_monitors(monitors.clone());
+            return Ok(Self { robot: Robot::Driven(mission, Box::new(driven), monitors), ..self });
+        }
         let (mission, supervised) = match (self.robot, requirements.iter().find(about)) {
             (Robot::Plain(..) | Robot::Team(..), Some(it)) => {
                 return Err(Unready::Plain(it.to_string()));
@@ -254,15 +277,11 @@ impl<'m> Subject<'m> {
                 return Ok(Self { robot, ..self });
             }
             (Robot::Supervised(mission, supervised, _), _) => (mission, supervised),
+            (Robot::Driven(mission, driven, monitors), _) => {
+                return Ok(Self { robot: Robot::Driven(mission, driven, monitors), ..self });
+            }
         };
-        let properties = requirements.iter().filter_map(|it| match it {
-            Requirement::Always(text) => Some(text),
-            _ => None,
-        });
-        let monitor = |text: &String| {
-            supervised.monitor(text).map_err(|error| Unready::Property(text.clone(), error))
-        };
-        let monitors = properties.map(monitor).collect::<Result<Vec<_>, _>>()?;
+        let monitors = watched(requirements, |text| supervised.monitor(text))?;
         let supervised = supervised.with_monitors(monitors.clone());
         let conforms = requirements.contains(&Requirement::Conforms);
         let supervised = match conforms.then(|| supervised.clone().compared()) {
@@ -285,7 +304,9 @@ impl<'m> Subject<'m> {
     /// Returns the mission; `None` of a team.
     pub const fn mission(&self) -> Option<&'m Mission> {
         match &self.robot {
-            Robot::Plain(mission, _) | Robot::Supervised(mission, ..) => Some(mission),
+            Robot::Plain(mission, _)
+            | Robot::Supervised(mission, ..)
+            | Robot::Driven(mission, ..) => Some(mission),
             Robot::Team(..) => None,
         }
     }
@@ -321,9 +342,9 @@ impl<'m> Subject<'m> {
     /// Returns the space of possible faults.
     pub fn space(&self, rates: Rates, faults: RangeInclusive<u64>) -> Space {
         match &self.robot {
-            Robot::Plain(mission, _) | Robot::Supervised(mission, ..) => {
-                Space::of(mission, rates, faults)
-            }
+            Robot::Plain(mission, _)
+            | Robot::Supervised(mission, ..)
+            | Robot::Driven(mission, ..) => Space::of(mission, rates, faults),
             Robot::Team(team, _) => Space::of_team(team, rates, faults),
         }
     }
@@ -331,7 +352,9 @@ impl<'m> Subject<'m> {
     /// Returns the planner in words; of a team the allocation of its tasks.
     pub fn words(&self) -> String {
         match &self.robot {
-            Robot::Plain(mission, _) | Robot::Supervised(mission, ..) => self.policy.words(mission),
+            Robot::Plain(mission, _)
+            | Robot::Supervised(mission, ..)
+            | Robot::Driven(mission, ..) => self.policy.words(mission),
             Robot::Team(team, _) => format!("allocation {}", team.method.name()),
         }
     }
@@ -339,7 +362,9 @@ impl<'m> Subject<'m> {
     /// Writes the faults of a plan as the text of a file, a line each.
     pub fn text(&self, plan: &Plan) -> String {
         match &self.robot {
-            Robot::Plain(mission, _) | Robot::Supervised(mission, ..) => plan.compact(mission),
+            Robot::Plain(mission, _)
+            | Robot::Supervised(mission, ..)
+            | Robot::Driven(mission, ..) => plan.compact(mission),
             Robot::Team(team, _) => team.faults_to_toml(&plan.of_team()),
         }
     }
@@ -352,7 +377,9 @@ impl<'m> Subject<'m> {
     /// Reads a plan from the text of its faults; `None` for another text.
     pub fn plan(&self, text: &str) -> Option<Plan> {
         match &self.robot {
-            Robot::Plain(mission, _) | Robot::Supervised(mission, ..) => {
+            Robot::Plain(mission, _)
+            | Robot::Supervised(mission, ..)
+            | Robot::Driven(mission, ..) => {
                 Some(Plan::from(&Faults::parse("a result", text, mission).ok()?))
             }
             Robot::Team(team, _) => {
@@ -385,6 +412,27 @@ impl<'m> Subject<'m> {
         }
     }
 
+    /// Returns a failure of a robot's file in words.
+    pub(super) fn story_of_row(&self, it: &robots::Injection) -> String {
+        let robot = self.mission().and_then(|it| it.robot()).map(RobotFile::robot);
+        let row = robot.and_then(|robot| robot.failures.get(it.failure));
+        let what = row.map_or_else(String::new, |it| format!("{} fails: {}", it.id, it.mode));
+        let seconds = |it: Millis| format!("{}.{:03} s", it.0 / 1_000, it.0 % 1_000);
+        let when = match it.when {
+            Moment::Place(x) => format!("at {}.{} m", x.0 / 1_000, x.0 / 100 % 10),
+            Moment::At(time) => format!("at {}", seconds(time)),
+            Moment::During(part, after) => {
+                let of = robot.and_then(|robot| robot.sub_objectives.get(part));
+                let name = of.map_or("?", |it| it.name.as_str());
+                format!("{} after {name} first starts", seconds(after))
+            }
+            Moment::Waiting(after) => {
+                format!("{} after the operator is first asked", seconds(after))
+            }
+        };
+        format!("{when}, {what}")
+    }
+
     /// Returns the signature of a plan, with the names of the mission.
     pub fn signature(&self, plan: &Plan) -> String {
         self.mission().map_or_else(|| plan.signature(), |it| plan.named_signature(it))
@@ -392,13 +440,20 @@ impl<'m> Subject<'m> {
 
     /// Whether supervisors decide.
     pub const fn is_supervised(&self) -> bool {
-        matches!(self.robot, Robot::Supervised(..))
+        matches!(self.robot, Robot::Supervised(..) | Robot::Driven(..))
     }
 
     /// One run; a function of the plan alone.
     pub fn run(&self, plan: &Plan) -> Observed {
         match &self.robot {
             Robot::Plain(_, simulation) => plain(simulation, plan),
+            Robot::Driven(mission, it, monitors) => {
+                let run = it.run(&robots::Script::of(&Faults::from(plan), mission));
+                match (run, mission.robot()) {
+                    (Ok(run), Some(file)) => Observed::of_robot(&run, file.robot(), monitors),
+                    _ => Observed::nothing(),
+                }
+            }
             Robot::Team(team, planted) => {
                 let team = Scenario { faults: plan.of_team(), ..(**team).clone() };
                 Observed::of_team(&fleet::run_with(&team, *planted))
@@ -413,6 +468,20 @@ impl<'m> Subject<'m> {
             }
         }
     }
+}
+
+/// The monitors of the properties among requirements.
+fn watched(
+    requirements: &[Requirement],
+    monitor: impl Fn(&str) -> Result<Monitor, Unmonitored>,
+) -> Result<Vec<Monitor>, Unready> {
+    let properties = requirements.iter().filter_map(|it| match it {
+        Requirement::Always(text) => Some(text),
+        _ => None,
+    });
+    let made =
+        |text: &String| monitor(text).map_err(|error| Unready::Property(text.clone(), error));
+    properties.map(made).collect()
 }
 
 fn plain(simulation: &Simulation<'_>, plan: &Plan) -> Observed {

@@ -105,9 +105,8 @@ impl Failures {
                 Motion::Blocked if demand.led => {}
                 Motion::Blocked => end = drive.x(),
                 Motion::Slowed(parts) => {
-                    towards = towards.min(MillimetresPerSecond(
-                        demand.speed.0 * u64::from(parts) / 1_000,
-                    ));
+                    towards = towards
+                        .min(MillimetresPerSecond(demand.speed.0 * u64::from(parts) / 1_000));
                 }
                 Motion::Runaway if demand.halt => {}
                 Motion::Runaway => towards = demand.most,
@@ -148,7 +147,8 @@ impl Failures {
         let broken = self.broken(robot);
         let open = self.open(robot).filter(|it| !it.0.found);
         let open = open.filter(|it| can_see(robot, it.1, broken, place));
-        let left = open.map(|it| it.1.latency.0.saturating_sub(it.0.seen.0).div_ceil(self.period.0));
+        let left =
+            open.map(|it| it.1.latency.0.saturating_sub(it.0.seen.0).div_ceil(self.period.0));
         left.min().map_or(u64::MAX, |it| it.saturating_sub(1))
     }
 

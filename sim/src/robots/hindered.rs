@@ -68,10 +68,8 @@ impl Hindered {
         let holds = |it: &&PowerError| {
             mission.zones.get(it.zone).is_some_and(|it| it.x_start <= x && x < it.x_end)
         };
-        let permille: i64 = { self.power_errors.iter() }
-            .filter(holds)
-            .map(|it| i64::from(it.permille))
-            .sum();
+        let permille: i64 =
+            { self.power_errors.iter() }.filter(holds).map(|it| i64::from(it.permille)).sum();
         let factor = u64::try_from(permille.saturating_add(1_000)).unwrap_or(0);
         Milliwatts((model.0.saturating_mul(factor) + 500) / 1_000)
     }

@@ -27,14 +27,15 @@ use crate::options::Planner;
 use crate::plan::Planning;
 use crate::record::{Recorder, Silent};
 use crate::run::{NoPlan, Outcome, PlanMade};
+use crate::supervised::{Monitor, Unmonitored, Violation, Watching};
 use cotama_core::player::{Packed, Program, words};
-use cotama_core::system::{System, SystemError};
+use cotama_core::system::SystemError;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Event, EventKind, Faults, PowerError};
 use cotama_models::robots::supervisors::{self, OwnedSystem};
-use cotama_models::robots::{Answer, Decision, IncidentKind, Moment, RobotFile, Told};
-use std::collections::VecDeque;
+use cotama_models::robots::{Answer, Decision, Incident, IncidentKind, Moment, RobotFile, Told};
+use std::collections::{BTreeSet, VecDeque};
 use world::World;
 
 /// The faults of a run, and the answers of the operator.
@@ -72,24 +73,11 @@ pub struct Answers {
     pub delay: Millis,
 }
 
-impl Script {
-    /// The failures, events and answers of a script of a mission. A fault of hardware is the
-    /// failure of the robot's file that takes a unit of it, and nothing else; one that no failure
-    /// takes is [passed over](Self::passed_over). So are random events.
-    pub fn of(faults: &Faults, mission: &Mission) -> Self {
-        let (events, power_errors) = (faults.events.clone(), faults.power_errors.clone());
-        let mut script = Self { events, power_errors, ..Self::default() };
-        for it in &faults.events {
-            if let EventKind::Fault { hardware, units } = it.kind {
-                let taken: Vec<_> = script.injections.iter().map(|it| it.failure).collect();
-                let (when, until) = (Moment::Place(it.x), None);
-                let all = units_of(mission, hardware).into_iter().filter(|it| !taken.contains(it));
-                let all = all.take(usize::from(units));
-                let all = all.map(|failure| Injection { when, failure, until });
-                script.injections.extend(all);
-            }
-        }
-        for incident in &faults.of_robot {
+impl From<&[Incident]> for Script {
+    /// The failures and answers of a script.
+    fn from(incidents: &[Incident]) -> Self {
+        let mut script = Self::default();
+        for incident in incidents {
             let when = incident.when;
             match &incident.kind {
                 IncidentKind::Failure { failure, until } => {
@@ -106,6 +94,27 @@ impl Script {
                     let answers = answers.iter().copied().collect();
                     script.answers.push(Answers { x, answers, delay: *delay });
                 }
+            }
+        }
+        script
+    }
+}
+
+impl Script {
+    /// The failures, events and answers of a script of a mission. A fault of hardware is the
+    /// failure of the robot's file that takes a unit of it, and nothing else; one that no failure
+    /// takes is [passed over](Self::passed_over). So are random events.
+    pub fn of(faults: &Faults, mission: &Mission) -> Self {
+        let (events, power_errors) = (faults.events.clone(), faults.power_errors.clone());
+        let mut script = Self { events, power_errors, ..Self::from(&faults.of_robot[..]) };
+        for it in &faults.events {
+            if let EventKind::Fault { hardware, units } = it.kind {
+                let taken: Vec<_> = script.injections.iter().map(|it| it.failure).collect();
+                let (when, until) = (Moment::Place(it.x), None);
+                let all = units_of(mission, hardware).into_iter().filter(|it| !taken.contains(it));
+                let all = all.take(usize::from(units));
+                let all = all.map(|failure| Injection { when, failure, until });
+                script.injections.extend(all);
             }
         }
         script
@@ -168,6 +177,10 @@ pub struct Run {
     pub moved_when_safe: bool,
     /// The failure that ended the mission, by its position in the conduct.
     pub ended_by: Option<usize>,
+    /// The transitions that fired, as `ls.ask_Follow`, each once.
+    pub fired: BTreeSet<String>,
+    /// The property that it broke, which ended it.
+    pub violated: Option<Violation>,
 }
 
 /// The conduct on a failure.
@@ -199,6 +212,7 @@ pub struct Driven<'m> {
     system: OwnedSystem,
     packed: Memory,
     planner: Planner,
+    monitors: Vec<Monitor>,
 }
 
 /// The supervisors, packed into the smallest memory that holds them.
@@ -250,7 +264,27 @@ impl<'m> Driven<'m> {
             })
         });
         let packed = packed.map_err(Undriven::TooLarge)?;
-        Ok(Self { mission, system, packed, planner: Planner::of(mission) })
+        let (planner, monitors) = (Planner::of(mission), Vec::new());
+        Ok(Self { mission, system, packed, planner, monitors })
+    }
+
+    /// A property of its supervisors, to be watched: see [`Monitor`].
+    ///
+    /// # Errors
+    /// When the text is no property of these supervisors, or none that can be watched.
+    pub fn monitor(&self, text: &str) -> Result<Monitor, Unmonitored> {
+        self.system.with(|system| Monitor::new(text, system))
+    }
+
+    /// A run ends where it breaks one of these.
+    #[must_use]
+    pub fn with_monitors(self, monitors: Vec<Monitor>) -> Self {
+        Self { monitors, ..self }
+    }
+
+    /// Returns the planner.
+    pub const fn planner(&self) -> Planner {
+        self.planner
     }
 
     /// Plans are made by this planner.
@@ -279,18 +313,13 @@ impl<'m> Driven<'m> {
         recorder: &mut R,
     ) -> Result<Run, NoPlan> {
         self.system.with(|system| match &self.packed {
-            Memory::Small(packed) => {
-                self.played(system, packed.load(system), script, period, recorder)
-            }
-            Memory::Large(packed) => {
-                self.played(system, packed.load(system), script, period, recorder)
-            }
+            Memory::Small(packed) => self.played(packed.load(system), script, period, recorder),
+            Memory::Large(packed) => self.played(packed.load(system), script, period, recorder),
         })
     }
 
     fn played<P: Program<W, 0, SLOTS>, R: Recorder, const W: usize>(
         &self,
-        _: &System<'_>,
         program: P,
         script: &Script,
         period: Millis,
@@ -301,7 +330,9 @@ impl<'m> Driven<'m> {
             robot.configurations.iter().position(|it| it.name == tio.id)
         });
         planning.plan(crate::run::PlanCause::Start, world::START, self.mission.available())?;
-        let Some(mut world) = World::start(self.mission, program, planning, script, period) else {
+        let watching = Watching::new(&self.monitors);
+        let world = World::start(self.mission, program, planning, script, period, watching);
+        let Some(mut world) = world else {
             return Err(NoPlan::Infeasible); // a mission that is driven has a robot with a body
         };
         world.run(recorder);

@@ -230,9 +230,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             let of = self.mission.scenario().activities.get(at.activity);
             let activity = of.map_or_else(String::new, |it| it.id.clone());
             let (choice, speed_mm_s) = (choice.to_owned(), speed.0);
-            to.put(|| {
-                Record::Activity(Activity { t_us, x_mm, activity, choice, speed_mm_s })
-            });
+            to.put(|| Record::Activity(Activity { t_us, x_mm, activity, choice, speed_mm_s }));
         }
         if self.now >= to.next_sample {
             to.next_sample = Millis(self.now.0.saturating_add(self.period.0));
@@ -246,7 +244,9 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let limits = self.mission.scenario().limits;
         let signed = |it: u64| i64::try_from(it).unwrap_or(i64::MAX);
         std::array::from_fn(|axis| {
-            signed(limits[axis]).saturating_sub(signed(used[axis])).saturating_sub(signed(rest[axis]))
+            signed(limits[axis])
+                .saturating_sub(signed(used[axis]))
+                .saturating_sub(signed(rest[axis]))
         })
     }
 

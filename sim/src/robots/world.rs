@@ -13,6 +13,7 @@ use crate::body::Drive;
 use crate::plan::{Planning, Progress};
 use crate::record::Recorder;
 use crate::run::{LONGEST, Outcome, PlanCause};
+use crate::supervised::{Violation, Watching};
 use cotama_core::net::TransitionId;
 use cotama_core::player::{Firing, Names, Observer, Program};
 use cotama_core::system::Of;
@@ -23,7 +24,7 @@ use cotama_models::missions::tables::Rest;
 use cotama_models::robots::{
     Body, Decision, Global, Level, Mode, Moment, Parts, Robot, Told, Where, diagnose,
 };
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
 /// How far a mission has come when it starts.
 pub(super) const START: Progress =
@@ -59,6 +60,9 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     permitted: bool,
     pub(super) period: Millis,
     pub(super) run: Run,
+    watching: Watching<'m>,
+    /// When transitions fired last, and which.
+    last: (Millis, Vec<String>),
     /// Whether nothing happened in the last period.
     calm: bool,
 }
@@ -72,6 +76,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         planning: Planning<'m, usize>,
         script: &Script,
         period: Millis,
+        watching: Watching<'m>,
     ) -> Option<Self> {
         let robot = mission.robot()?.robot();
         let body = robot.body.as_ref()?;
@@ -90,6 +95,8 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             braked: Millimetres(0),
             moved_when_safe: false,
             ended_by: None,
+            fired: BTreeSet::new(),
+            violated: None,
         };
         Some(Self {
             mission,
@@ -116,6 +123,8 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             permitted: false,
             period,
             run,
+            watching,
+            last: (Millis(0), Vec::new()),
             calm: false,
         })
     }
@@ -154,7 +163,9 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         self.calm &= self.drive.is_steady_since(&before, self.body.period);
         if self.failures.thinks(self.robot) {
             self.observe(recording);
-            if !happened.is_empty() || self.now.0 / 1_000 != self.now.0.saturating_sub(self.body.period.0) / 1_000 {
+            if !happened.is_empty()
+                || self.now.0 / 1_000 != self.now.0.saturating_sub(self.body.period.0) / 1_000
+            {
                 self.watch_margins(recording);
             }
             self.round(recording);
@@ -164,6 +175,9 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
 
     /// How the mission ends, if it does.
     fn end(&self) -> Option<Outcome> {
+        if self.run.violated.is_some() {
+            return Some(Outcome::Failed);
+        }
         let stands = self.drive.speed().0 == 0;
         let left_alone = !self.failures.thinks(self.robot)
             && stands
@@ -300,7 +314,11 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let allowed = allowed.unwrap_or(MillimetresPerSecond(0));
         // Who drives by hand has no planned option.
         let by_hand = mode(self.robot, self.place) == Some(Mode::Operator);
-        if by_hand { (allowed, self.body.motion_power.at(allowed)) } else { (speed.min(allowed), power) }
+        if by_hand {
+            (allowed, self.body.motion_power.at(allowed))
+        } else {
+            (speed.min(allowed), power)
+        }
     }
 
     /// Returns the power of the robot: that of its pace while it moves, or that of its task where
@@ -381,9 +399,9 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         }
         self.record_diagnosis(recording, &seen, &raised, &taken);
         for failure in taken {
-            let its_own = seen.iter().find(|it| {
-                self.failures.all.get(**it).is_some_and(|it| it.number == failure)
-            });
+            let its_own = seen
+                .iter()
+                .find(|it| self.failures.all.get(**it).is_some_and(|it| it.number == failure));
             let cause = Cause(u16::try_from(its_own.unwrap_or(&first) + 1).unwrap_or(u16::MAX));
             let reports = &self.robot.losses.reports;
             let report = reports.iter().position(|it| it.failures.contains(&failure));
@@ -448,6 +466,12 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         }
         self.note_all(recording, &mut seen);
         self.arrive(recording);
+        if let Some(monitor) = self.watching.look(self.now, self.level.player())
+            && self.run.violated.is_none()
+        {
+            let fired = self.last.1.clone();
+            self.run.violated = Some(Violation { at: self.now, monitor, fired });
+        }
     }
 
     /// Notes all that fired.
@@ -532,6 +556,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         if net == "faults" || net == "operator" {
             return;
         }
+        let name = format!("{net}.{}", fired.transition);
         let (now, conduct) = (self.now, usize::from(cause.0).checked_sub(1));
         let said = fired.outputs.first().copied().unwrap_or("");
         let restart = fired.restarts;
@@ -544,6 +569,11 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let ends = net == "gs" && fired.outputs.contains(&"halt");
         let done = net == "gs" && fired.transition == "done";
         self.record_fired(recording, id, cause);
+        if self.last.0 != now {
+            self.last = (now, Vec::new());
+        }
+        self.last.1.push(name.clone());
+        self.run.fired.insert(name);
         let mut known = None;
         if let Some(it) = conduct.and_then(|it| self.run.conduct.get_mut(it)) {
             match net {
@@ -616,9 +646,11 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         if busy || held || !self.failures.thinks(self.robot) {
             return;
         }
-        let until = |it: Millis| (it.0.saturating_sub(self.now.0) / self.body.period.0).saturating_sub(1);
+        let until =
+            |it: Millis| (it.0.saturating_sub(self.now.0) / self.body.period.0).saturating_sub(1);
         let mut most = until(Millis((self.now.0 / 1_000 + 1) * 1_000));
         most = most.min(until(LONGEST)).min(self.failures.unseen_for(self.robot, self.place));
+        most = self.watching.late_at().map_or(most, |it| most.min(until(it)));
         let changes = self.failures.changes(self.robot, self.now);
         most = changes.map_or(most, |it| most.min(until(it)));
         let moments = self.waiting.iter().map(|it| it.when);
@@ -655,8 +687,9 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let power = self.hindered.real(self.mission, self.drive.x(), power);
         self.drive.glide(most, self.body.period);
         self.failures.look_on(self.robot, self.place, most);
-        self.energy_uj =
-            self.energy_uj.saturating_add(power.0.saturating_mul(self.body.period.0).saturating_mul(most));
+        self.energy_uj = self
+            .energy_uj
+            .saturating_add(power.0.saturating_mul(self.body.period.0).saturating_mul(most));
         self.exposed_on(most);
         self.now.0 += self.body.period.0 * most;
         self.run.rounds += most;
@@ -671,7 +704,8 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
 
     /// In how many periods a moment has not come yet, with everything as it is.
     fn periods_before(&self, when: Moment) -> u64 {
-        let until = |it: u64| (it.saturating_sub(self.now.0) / self.body.period.0).saturating_sub(1);
+        let until =
+            |it: u64| (it.saturating_sub(self.now.0) / self.body.period.0).saturating_sub(1);
         let since = |place: Option<usize>, after: Millis| {
             let first = self.first.iter().find(|it| it.0 == place);
             first.map_or(u64::MAX, |it| until(it.1.0 + after.0))

@@ -23,6 +23,7 @@ mod world;
 pub use crate::body::{PERIOD, Planted};
 pub use conduct::{Conduct, Fired};
 pub use cotama_models::cotama::Judged;
+pub(crate) use monitor::Watching;
 pub use monitor::{Monitor, Unmonitored, Violation};
 pub use operator::Answers;
 pub use script::{Injection, Script, When};

@@ -120,7 +120,7 @@ pub struct Violation {
 
 impl Monitor {
     /// A property of these supervisors.
-    pub(super) fn new(text: &str, system: &System<'_>) -> Result<Self, Unmonitored> {
+    pub(crate) fn new(text: &str, system: &System<'_>) -> Result<Self, Unmonitored> {
         let (names, slots) = places(system);
         let property =
             property::parse(text, &names).map_err(|error| Unmonitored::Unreadable(error.into()))?;
@@ -227,19 +227,19 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Markin
 
 /// Monitors at work: since when the answers that each of them waits for are due.
 #[derive(Clone, Debug)]
-pub(super) struct Watching<'m> {
+pub(crate) struct Watching<'m> {
     monitors: &'m [Monitor],
     since: Vec<Option<Millis>>,
 }
 
 impl<'m> Watching<'m> {
-    pub(super) fn new(monitors: &'m [Monitor]) -> Self {
+    pub(crate) fn new(monitors: &'m [Monitor]) -> Self {
         let parts = monitors.iter().map(|it| it.parts.len()).sum();
         Self { monitors, since: vec![None; parts] }
     }
 
     /// A round has ended: the first monitor that is broken, if one is.
-    pub(super) fn look<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>(
+    pub(crate) fn look<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>(
         &mut self,
         now: Millis,
         player: &Player<P, W, C, S, Cause>,
@@ -269,7 +269,7 @@ impl<'m> Watching<'m> {
     }
 
     /// From when on an answer is late, if nothing changes.
-    pub(super) fn late_at(&self) -> Option<Millis> {
+    pub(crate) fn late_at(&self) -> Option<Millis> {
         let parts = self.monitors.iter().flat_map(|it| &it.parts);
         let late = parts.zip(&self.since).filter_map(|(part, since)| match part {
             Part::Answer { within, .. } => Some(Millis((*since)?.0 + within.0 + 1)),

@@ -12,11 +12,11 @@ use crate::body::{PERIOD, Planted, Robot, Watch};
 use crate::options::Planner;
 use crate::plan::{Planning, Progress};
 use crate::run::{LONGEST, NoPlan, Outcome, PlanCause};
+use cotama_core::hardware::Equipment;
 use cotama_core::net::Net;
 use cotama_core::player::Program;
 use cotama_core::system::System;
 use cotama_core::units::{Millimetres, Millis};
-use cotama_core::hardware::Equipment;
 use cotama_models::cotama::{
     Configuration, Decider, DecisionalLevel, Flags, Module, Modules, local, recovering,
 };

@@ -13,7 +13,6 @@ use cotama_core::monitor::Upward;
 use cotama_core::units::Millis;
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, MissionErrors};
-use cotama_models::robots::RobotFile;
 use std::fmt;
 
 /// Why a recorded run cannot be made.
@@ -124,10 +123,7 @@ impl Trace {
             version: env!("CARGO_PKG_VERSION").into(),
             mission_source: mission.source().into(),
             mission: mission.text().into(),
-            robot: mission.robot().map(|it| RobotText {
-                source: it.source().into(),
-                text: it.text().into(),
-            }),
+            robot: mission.robot().map(RobotText::of),
             options: RunOptions {
                 seed: options.seed,
                 faults,
@@ -184,8 +180,8 @@ impl Header {
     /// # Errors
     /// All errors of its text, or of the robot's.
     pub fn mission(&self) -> Result<Mission, MissionErrors> {
-        let robot = self.robot.as_ref().map(|it| RobotFile::parse(&it.source, &it.text));
-        Mission::parse_under(&self.mission_source, &self.mission, robot.transpose()?)
+        let robot = self.robot.as_ref().map(RobotText::file).transpose()?;
+        Mission::parse_under(&self.mission_source, &self.mission, robot)
     }
 }
 

@@ -19,7 +19,11 @@ pub(super) fn is_incident(fields: &Fields<'_>) -> bool {
 }
 
 /// Reads an incident.
-pub(super) fn incident(mut fields: Fields<'_>, robot: &Robot, names: &Names<'_>) -> Option<Incident> {
+pub(super) fn incident(
+    mut fields: Fields<'_>,
+    robot: &Robot,
+    names: &Names<'_>,
+) -> Option<Incident> {
     let kind = fields.choice("kind", "event", &["failure", "repair", "operator"]);
     let when = moment(&mut fields, robot, ["x_mm", "t_ms", "during", "after_ms"]);
     let kind = match kind {
@@ -89,7 +93,8 @@ fn moment(
 fn operator(fields: &mut Fields<'_>, robot: &Robot) -> Option<IncidentKind> {
     let delay = fields.integer("delay_ms", AT_LEAST_ZERO).map(Millis);
     let found = fields.texts("answers")?;
-    let answers = found.iter().map(|name| answer(fields, name, robot)).collect::<Option<Vec<_>>>()?;
+    let answers =
+        found.iter().map(|name| answer(fields, name, robot)).collect::<Option<Vec<_>>>()?;
     let ends = matches!(answers.last(), Some(Answer::Done | Answer::GivesUp));
     let early = answers.iter().rev().skip(1).any(|it| !matches!(it, Answer::Chooses(_)));
     if !ends || early || answers.first() == Some(&Answer::Done) {

@@ -8,6 +8,7 @@ use crate::plan::{Fault, Plan};
 use crate::space::{Kind, Space};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::Module;
+use cotama_models::robots as row;
 use cotama_models::team::scenario::FaultTime;
 use cotama_sim::streams::{Stream, Streams};
 use cotama_sim::supervised::When;
@@ -179,12 +180,27 @@ fn shuffle<T>(deck: &mut [T], stream: &mut Stream) {
     }
 }
 
+/// A number near another one.
+fn near(value: u64, most: u64, stream: &mut Stream) -> u64 {
+    (value + stream.below(2 * MOVED + 1)).saturating_sub(MOVED).min(most)
+}
+
+/// Moves a moment of a failure of a robot's file.
+fn moved(when: row::Moment, anywhere: bool, space: &Space, stream: &mut Stream) -> row::Moment {
+    match when {
+        _ if anywhere => space.row_moment(stream),
+        row::Moment::Place(x) => row::Moment::Place(Millimetres(near(x.0, space.path_mm, stream))),
+        row::Moment::At(it) => row::Moment::At(Millis(near(it.0, space.time_ms, stream))),
+        row::Moment::During(part, it) => {
+            row::Moment::During(part, Millis(near(it.0, 60_000, stream)))
+        }
+        row::Moment::Waiting(it) => row::Moment::Waiting(Millis(near(it.0, 60_000, stream))),
+    }
+}
+
 /// Moves a fault a little, or anywhere.
 fn move_it(fault: &mut Fault, space: &Space, stream: &mut Stream) {
     let anywhere = stream.below(3) == 0;
-    let near = |value: u64, most: u64, stream: &mut Stream| {
-        (value + stream.below(2 * MOVED + 1)).saturating_sub(MOVED).min(most)
-    };
     match fault {
         Fault::Failure { when, part, .. } => {
             if part.is_some() && stream.below(3) == 0 {
@@ -206,8 +222,9 @@ fn move_it(fault: &mut Fault, space: &Space, stream: &mut Stream) {
                 near(it.x.0, space.path_mm, stream)
             };
         }
+        Fault::Row(it) => it.when = moved(it.when, anywhere, space, stream),
         Fault::Power(it) => it.permille = i32::try_from(stream.below(401)).unwrap_or(0) - 100,
-        Fault::Operator(_) => *fault = space.answers(stream),
+        Fault::Operator(_) | Fault::Replies(_) => *fault = space.answers(stream),
         Fault::Team(it) => {
             if let FaultTime::At(at) = &mut it.when {
                 *at = if anywhere {

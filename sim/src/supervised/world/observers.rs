@@ -1,10 +1,10 @@
 //! The flags that observers raise, and the diagnoses of the decisional level.
 
+use super::units;
 use super::{CLOCKS, World};
 use crate::body::{Observed, Planted, Seen};
-use crate::run::{Part, PlanCause};
-use super::units;
 use crate::plan::{Planning, Progress};
+use crate::run::{Part, PlanCause};
 use cotama_core::player::Program;
 use cotama_models::cotama::{
     Class, Configuration, FailureMode, Finding, Module, Modules, NoPlanLeft, Plans, Why,
@@ -95,8 +95,7 @@ impl Plans for Rest<'_, '_> {
         }
         let used = if self.with_lost { units(self.mission, Modules::ALL) } else { left };
         let planned = self.planning.plan(cause, self.at, used);
-        *self.planned_with_lost |=
-            planned.is_ok() && !self.planning.needs_no_more(self.at, left);
+        *self.planned_with_lost |= planned.is_ok() && !self.planning.needs_no_more(self.at, left);
         planned.map(|()| true).map_err(|_| NoPlanLeft)
     }
 
