@@ -21,6 +21,7 @@ use cotama_campaign::subject::{Policy, Subject};
 use cotama_models::missions::Mission;
 use cotama_pages::campaign::{self as page, Shown};
 use cotama_sim::options::STEPS;
+use cotama_models::robots::RobotFile;
 use cotama_sim::trace::RobotText;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -67,7 +68,9 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
     }
     let policy = args.policy_for(&mission)?;
     let of = asked::Of::mission(&mission);
-    let campaign = ready(&mission, policy, asked::settings(args, of, mission.source())?)?;
+    let robot = mission.robot().map(RobotFile::robot);
+    let settings = asked::settings(args, of, mission.source(), robot)?;
+    let campaign = ready(&mission, policy, settings)?;
     let shard = args.shard.unwrap_or(Shard::ALL);
     let texts = (mission.source(), mission.text());
     let usual = args.policy().policy(mission.is_supervised(), STEPS);
@@ -90,7 +93,7 @@ fn of_team(args: &CampaignArgs, team: &Chosen, screen: &Screen) -> Result<Exit, 
         return Err(Failure::new(message).help("the file of a team says how its tasks are given"));
     }
     let source = args.scenario.as_str();
-    let settings = asked::settings(args, asked::Of::Team, source)?;
+    let settings = asked::settings(args, asked::Of::Team, source, None)?;
     let subject = Subject::of_team(team.scenario(), None).named(source);
     let campaign =
         Campaign::new(subject, settings).map_err(|it| Failure::of(source, it.to_string()))?;

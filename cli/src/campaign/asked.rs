@@ -9,6 +9,7 @@ use cotama_campaign::space::Rates;
 use cotama_campaign::statistics::{Sprt, okamoto_runs};
 use cotama_campaign::strategy::StrategyName;
 use cotama_models::missions::Mission;
+use cotama_models::robots::{Robot, supervisors};
 
 /// The kind of a campaign's subject.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +28,12 @@ impl Of {
 }
 
 /// Returns the settings of the campaign of a subject from this source.
-pub(super) fn settings(args: &CampaignArgs, of: Of, source: &str) -> Result<Settings, Failure> {
+pub(super) fn settings(
+    args: &CampaignArgs,
+    of: Of,
+    source: &str,
+    robot: Option<&Robot>,
+) -> Result<Settings, Failure> {
     let supervised = of == Of::Supervised;
     let usual = Settings::new(supervised);
     let for_supervised = args.require.iter().find(|it| it.needs_supervisors() && !supervised);
@@ -38,7 +44,7 @@ pub(super) fn settings(args: &CampaignArgs, of: Of, source: &str) -> Result<Sett
         };
         return Err(Failure::of(source, message).help("--require not-failed, say"));
     }
-    if let Some(unknown) = args.require.iter().find(|it| !fires(it)) {
+    if let Some(unknown) = args.require.iter().find(|it| !fires(it, robot)) {
         let message = format!("`{unknown}`: the supervisors have no such transition");
         return Err(Failure::new(message).help("cotama simulate delivery lists them"));
     }
@@ -130,9 +136,14 @@ pub(super) fn only_merged(args: &CampaignArgs) -> Result<(), Failure> {
 }
 
 /// Whether a transition that must not fire is one of the supervisors.
-fn fires(requirement: &Requirement) -> bool {
+fn fires(requirement: &Requirement, robot: Option<&Robot>) -> bool {
     let Requirement::Never(name) = requirement else { return true };
     let Some((net, transition)) = name.split_once('.') else { return false };
+    if let Some(robot) = robot {
+        let nets = supervisors::system(robot).nets;
+        let of = nets.iter().filter(|it| it.0 == net);
+        return { of }.any(|it| it.1.transitions.iter().any(|it| it.name == transition));
+    }
     let components = cotama_models::cotama::recovering::SYSTEM.components;
     // The global supervisor of a mission of one's own has transitions of its own.
     net == "gs"

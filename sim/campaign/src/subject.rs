@@ -266,7 +266,9 @@ impl<'m> Subject<'m> {
             if requirements.contains(&Requirement::Conforms) {
                 return Err(Unready::Shipped);
             }
-            let driven = driven.with_monitors(monitors.clone());
+            let stands = requirements.contains(&Requirement::StandsWhenSafe);
+            let after = if stands { AFTER } else { Millis(0) };
+            let driven = driven.with_monitors(monitors.clone()).watched_for(after);
             return Ok(Self { robot: Robot::Driven(mission, Box::new(driven), monitors), ..self });
         }
         let (mission, supervised) = match (self.robot, requirements.iter().find(about)) {

@@ -213,6 +213,8 @@ pub struct Driven<'m> {
     packed: Memory,
     planner: Planner,
     monitors: Vec<Monitor>,
+    /// For how long the robot is watched when it is safe.
+    after: Millis,
 }
 
 /// The supervisors, packed into the smallest memory that holds them.
@@ -264,8 +266,8 @@ impl<'m> Driven<'m> {
             })
         });
         let packed = packed.map_err(Undriven::TooLarge)?;
-        let (planner, monitors) = (Planner::of(mission), Vec::new());
-        Ok(Self { mission, system, packed, planner, monitors })
+        let (planner, monitors, after) = (Planner::of(mission), Vec::new(), Millis(0));
+        Ok(Self { mission, system, packed, planner, monitors, after })
     }
 
     /// A property of its supervisors, to be watched: see [`Monitor`].
@@ -280,6 +282,12 @@ impl<'m> Driven<'m> {
     #[must_use]
     pub fn with_monitors(self, monitors: Vec<Monitor>) -> Self {
         Self { monitors, ..self }
+    }
+
+    /// A robot that is safe is watched for so long: whether it moves again.
+    #[must_use]
+    pub fn watched_for(self, after: Millis) -> Self {
+        Self { after, ..self }
     }
 
     /// Returns the planner.
@@ -336,6 +344,7 @@ impl<'m> Driven<'m> {
             return Err(NoPlan::Infeasible); // a mission that is driven has a robot with a body
         };
         world.run(recorder);
+        world.stand_for(self.after);
         Ok(world.into_run())
     }
 }

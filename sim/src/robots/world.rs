@@ -11,7 +11,7 @@ use super::records::Recording;
 use super::{Conduct, Injection, Run, Script};
 use crate::body::Drive;
 use crate::plan::{Planning, Progress};
-use crate::record::Recorder;
+use crate::record::{Recorder, Silent};
 use crate::run::{LONGEST, Outcome, PlanCause};
 use crate::supervised::{Violation, Watching};
 use cotama_core::net::TransitionId;
@@ -147,9 +147,21 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         self.record_end(&mut recording);
     }
 
+    /// Goes on for a time after the robot was made safe, and notes whether it moves.
+    pub(super) fn stand_for(&mut self, after: Millis) {
+        let (until, from) = (self.now.0.saturating_add(after.0), self.drive.x());
+        let (used, now) = (self.used(), self.now);
+        let mut silent = Silent;
+        let mut recording = Recording::new(&mut silent);
+        while self.run.outcome == Outcome::Safe && self.now.0 < until {
+            self.step(&mut recording);
+        }
+        self.run.moved_when_safe |= self.drive.x() > from;
+        (self.run.time, self.run.x, self.run.used) = (now, from, used);
+    }
+
     /// The run, when it is over.
     pub(super) fn into_run(mut self) -> Run {
-        (self.run.time, self.run.x, self.run.used) = (self.now, self.drive.x(), self.used());
         self.run.plans = self.planning.made;
         self.run
     }
