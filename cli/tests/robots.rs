@@ -25,7 +25,7 @@ fn a_new_robot_keeps_its_requirements() {
 #[test]
 fn a_changed_robot_shows_how_it_breaks_a_property() {
     let folder = cart("robots_changed");
-    let asked = ["check", "cart.toml", "--property", "AG !Follow.Blind", "--json"];
+    let asked = ["check", "cart.toml", "--property", "AG !follow.Blind", "--json"];
     let answer = folder.cotama(&asked).json(1);
     let trace = answer["results"][0]["trace"].as_array().unwrap();
     let names: Vec<_> = trace.iter().filter_map(|it| it["transition"].as_str()).collect();

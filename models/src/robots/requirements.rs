@@ -4,7 +4,7 @@
 //! shipped delivery: GS global, LS local, AS adapters, CS contextual. Texts speak of
 //! [`system`](super::supervisors::system) as one net that acts in rounds.
 
-use super::supervisors::{cannot_run, place_of, word};
+use super::supervisors::{adapter, cannot_run, place_of, word};
 use super::{Mode, Robot, SubObjective};
 use crate::cotama::Severity;
 
@@ -180,13 +180,13 @@ fn severe(robot: &Robot, ask: &mut Ask<'_>) {
 
 /// One configuration at a time, and only worse ones until the sub-objective ends.
 fn adapters(robot: &Robot, of: &SubObjective, ask: &mut Ask<'_>) {
-    let name = word(&of.name);
+    let (name, adapter) = (word(&of.name), adapter(of));
     let places: Vec<_> = of.configurations.iter().map(|it| place_of(robot, *it)).collect();
     ask(
         format!("AS1.{name}"),
         format!("`{}` runs one configuration at a time, and only where it is active.", of.name),
         Vec::new(),
-        format!("AG ({name}.Off + {} = 1 & {name}.Off + ls.{name} = 1)", places.join(" + ")),
+        format!("AG ({adapter}.Off + {} = 1 & {adapter}.Off + ls.{name} = 1)", places.join(" + ")),
     );
     let worse = places.windows(2).enumerate().map(|(at, _)| {
         let better = places[..=at].join(" | ");

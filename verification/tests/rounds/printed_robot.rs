@@ -340,7 +340,7 @@ cotama_core::system! {
         nets {
             gs: net_gs,
             ls: net_ls,
-            Follow: net_follow,
+            follow: net_follow,
             permit: net_permit,
             gom: net_gom,
             cs: net_cs,
@@ -356,9 +356,9 @@ cotama_core::system! {
             ls.no_way => gs.no_way mail 1;
             cs.global_event => gs.global_event mail 1;
             cs.local_event => ls.local_event mail 1;
-            ls.start_Follow => Follow.start now;
-            ls.stop_Follow => Follow.stop now;
-            cs.adapt_Follow => Follow.adapt mail 1;
+            ls.start_Follow => follow.start now;
+            ls.stop_Follow => follow.stop now;
+            cs.adapt_Follow => follow.adapt mail 1;
             ls.start_Follow => permit.grant now;
             ls.stop_Follow => permit.revoke now;
             ls.start_Manual => permit.grant now;
@@ -379,16 +379,16 @@ cotama_core::system! {
             cs.in_Follow = ls.Follow;
             cs.in_Manual = ls.Manual;
             operator.in_Manual = ls.Manual;
-            cs.runs_Careful = Follow.Careful;
-            cs.runs_Blind = Follow.Blind;
+            cs.runs_Careful = follow.Careful;
+            cs.runs_Blind = follow.Blind;
             cs.lost_lidar = gom.lost_lidar;
             operator.lost_lidar = gom.lost_lidar;
             ls.lost_lidar = gom.lost_lidar;
-            Follow.lost_lidar = gom.lost_lidar;
+            follow.lost_lidar = gom.lost_lidar;
             cs.lost_camera = gom.lost_camera;
             operator.lost_camera = gom.lost_camera;
             ls.lost_camera = gom.lost_camera;
-            Follow.lost_camera = gom.lost_camera;
+            follow.lost_camera = gom.lost_camera;
         }
         pending {
             ls.local_pending = ls.local_event;

@@ -73,7 +73,7 @@ fn each_mistake_in_the_supervisors_breaks_the_requirement_that_forbids_it() {
         (&|it| change(it, "cs", "WHL1_Follow", |it| it.emits.clear()), "CS2"),
         // The adapter keeps what runs.
         (
-            &|it| change(it, "Follow", "Follow_Full_adapts", |it| it.give = it.take.clone()),
+            &|it| change(it, "follow", "Follow_Full_adapts", |it| it.give = it.take.clone()),
             "AS4.Follow_Full",
         ),
         // The permit is left with who waits.

@@ -11,7 +11,7 @@
 //! | `faults`, `operator`: the surroundings, for the checker | failures, sub-objectives |
 //!
 //! (Durand et al., TAROS 2010, Section V.) Places of configurations and sub-objectives have their
-//! names, with `_` in place of all but letters and digits.
+//! names, with `_` in place of all but letters and digits; adapters are in lower case, as all nets.
 
 mod cubes;
 mod draft;
@@ -21,7 +21,7 @@ mod rust_source;
 
 pub use owned::OwnedSystem;
 
-use super::{Mode, Robot};
+use super::{Mode, Robot, SubObjective};
 use crate::cotama::permit;
 use cotama_core::net::owned::OwnedNet;
 use nets::{configuration, has_adapter, lost, parts};
@@ -31,12 +31,18 @@ pub(crate) fn word(name: &str) -> String {
     name.chars().map(|it| if it.is_ascii_alphanumeric() { it } else { '_' }).collect()
 }
 
+/// Returns the name of a sub-objective's adapter in the system: a reader of the file has seen that
+/// no other net has it.
+pub(super) fn adapter(it: &SubObjective) -> String {
+    word(&it.name).to_lowercase()
+}
+
 /// Returns the place that is marked where a configuration runs, as properties name it.
 pub(super) fn place_of(robot: &Robot, it: usize) -> String {
     let of = robot.configurations.get(it).and_then(|it| robot.sub_objectives.get(it.sub_objective));
     let Some(of) = of else { return String::new() };
     if has_adapter(of) {
-        format!("{}.{}", word(&of.name), configuration(robot, it))
+        format!("{}.{}", adapter(of), configuration(robot, it))
     } else {
         format!("ls.{}", word(&of.name))
     }
@@ -67,7 +73,7 @@ pub(super) fn cannot_run(robot: &Robot, it: usize) -> Option<String> {
 /// let robot = Robot::shipped("transport").unwrap();
 /// let system = supervisors::system(&robot);
 /// let names: Vec<_> = system.nets.iter().map(|it| it.0.as_str()).collect();
-/// assert_eq!(names[..5], ["gs", "ls", "Follow", "Manual", "permit"]);
+/// assert_eq!(names[..5], ["gs", "ls", "follow", "manual", "permit"]);
 /// system.with(|system| assert_eq!(system.defect(), None));
 /// ```
 pub fn system(robot: &Robot) -> OwnedSystem {
@@ -78,7 +84,7 @@ pub fn system(robot: &Robot) -> OwnedSystem {
     system.net("gs", nets::global());
     system.net("ls", nets::local(robot));
     for it in all.iter().filter(|it| has_adapter(it.is)) {
-        system.net(&it.name, nets::adapter(robot, it));
+        system.net(&adapter(it.is), nets::adapter(robot, it));
     }
     system.net("permit", OwnedNet::from(&permit::NET));
     system.net("gom", nets::observation(robot));
@@ -99,9 +105,10 @@ pub fn system(robot: &Robot) -> OwnedSystem {
     for it in &all {
         let (start, stop) = (format!("start_{}", it.name), format!("stop_{}", it.name));
         if has_adapter(it.is) {
-            system.now(("ls", &start), (&it.name, "start"));
-            system.now(("ls", &stop), (&it.name, "stop"));
-            system.mail(("cs", &format!("adapt_{}", it.name)), (&it.name, "adapt"));
+            let adapter = adapter(it.is);
+            system.now(("ls", &start), (&adapter, "start"));
+            system.now(("ls", &stop), (&adapter, "stop"));
+            system.mail(("cs", &format!("adapt_{}", it.name)), (&adapter, "adapt"));
         }
         if it.is.moves {
             system.now(("ls", &start), ("permit", "grant"));
@@ -142,7 +149,7 @@ fn shares(robot: &Robot, system: &mut OwnedSystem, all: &[&str]) {
         }
     }
     let adapters = robot.sub_objectives.iter().filter(|it| has_adapter(it));
-    let adapters: Vec<_> = adapters.map(|it| (word(&it.name), &it.configurations)).collect();
+    let adapters: Vec<_> = adapters.map(|it| (adapter(it), &it.configurations)).collect();
     for (name, configurations) in &adapters {
         for it in configurations.iter().map(|it| configuration(robot, *it)) {
             system.share(("cs", &format!("runs_{it}")), (name, &it));

@@ -195,7 +195,8 @@ pub(super) fn local(robot: &Robot) -> OwnedNet {
 /// The adapter of a sub-objective: which of its configurations runs (Durand et al., TAROS 2010,
 /// Fig. 4).
 pub(super) fn adapter(robot: &Robot, of: &Part<'_>) -> OwnedNet {
-    let mut net = Draft::new(&of.name, &format!("Adapter of {}: which modules run.", of.is.name));
+    let doc = format!("Adapter of {}: which modules run.", of.is.name);
+    let mut net = Draft::new(&super::adapter(of.is), &doc);
     net.place("Off", 1, "Not running.");
     let all = &of.is.configurations;
     for &it in all {
