@@ -62,7 +62,8 @@ impl<'t> Fields<'t> {
         };
         if !counts.contains(&array.len()) {
             let (least, most) = (counts.start(), counts.end());
-            let message = format!("`{key}` has {} points; {least} to {most} are", array.len());
+            let noun = if array.len() == 1 { "point" } else { "points" };
+            let message = format!("`{key}` has {} {noun}; {least} to {most} are", array.len());
             let it = Diagnostic::new(node.span(), message + " allowed", "so many points");
             let few = array.len() < *least;
             self.report(it.help(if few { "add points" } else { "make two of it" }));
