@@ -1,6 +1,6 @@
 //! Rays against exact arithmetic: on stretches in integers of 128 bits, on cells by a walk from
 //! line to line that compares fractions.
-#![allow(clippy::unwrap_used, clippy::cast_precision_loss)]
+#![allow(clippy::unwrap_used, clippy::cast_precision_loss, clippy::cast_sign_loss)]
 
 use cotama_floor::{
     Bounds, Cell, Grid, Kind, Point, Ray, Segment, Segments, Sense, Surface, Vector,
@@ -221,6 +221,6 @@ fn rays_from_outside_enter_the_floor() {
         let ray = Ray::at(Point::from(from), angle);
         let mut out = [0.0];
         grid.distances(&[ray], 100.0, Sense::Light, &mut out);
-        assert!((out[0] - distance).abs() < 1e-12 || out[0] == distance, "{from:?}: {}", out[0]);
+        assert!((out[0] - distance).abs() < 1e-12 || out[0].min(distance).is_infinite(), "{from:?}: {}", out[0]);
     }
 }

@@ -6,7 +6,7 @@ use crate::octants::Walk;
 use crate::surface::{Sense, Surface};
 
 /// So many rays go together: their state stays in the first cache.
-const TOGETHER: usize = 128;
+const TOGETHER: usize = 256;
 
 /// Writes how far each ray goes; infinity where nothing is within the range.
 ///
@@ -41,7 +41,7 @@ fn together(grid: &Grid, rays: &[Ray], range: f64, walks: &mut [Walk; TOGETHER],
         let last = core::mem::take(&mut count);
         for place in 0..last.min(TOGETHER) {
             let at = open[place];
-            let walk = &mut walks[at as usize % TOGETHER];
+            let walk = &mut walks[at as usize];
             octants.step(walk);
             open[count % TOGETHER] = at;
             // Both are looked at: to skip one would be a branch.

@@ -19,6 +19,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<Image, Broken> {
     let (width, height) = (info.width as usize, info.height as usize);
     let cells = cells(info.width.into(), info.height.into(), None)?;
     let is_interlaced = info.interlaced;
+    // The decoder takes a palette for whole colours, and would go beyond its end.
+    let palette = info.palette.as_ref().map(|it| it.len());
+    if palette.is_some_and(|it| it == 0 || it % 3 != 0) {
+        let message = "not a whole PNG: the palette has no whole colours".to_owned();
+        return Err(Broken { at: None, message, help: HELP });
+    }
     let (color, depth) = reader.output_color_type();
     let samples = color.samples();
     let has_opacity = matches!(color, ColorType::GrayscaleAlpha | ColorType::Rgba);
