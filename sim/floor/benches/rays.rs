@@ -6,7 +6,7 @@
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss)]
 
 use cotama_floor::map_server::{Map, Metadata};
-use cotama_floor::{Point, Ray, Sense, Surface};
+use cotama_floor::{Point, Ray, Sense, Surface, Version, embedded};
 use cotama_fuzz::Random;
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -68,6 +68,8 @@ fn measure(name: &str, floor: &dyn Surface, count: usize, rounds: usize) {
 fn main() {
     let brief = std::env::args().skip(1).any(|argument| argument == "--test");
     let (count, rounds) = if brief { (SCAN * 4, 1) } else { (SCAN * 400, 41) };
+    let office = embedded::OFFICE.floor().unwrap().surface(Version::Real, &[]).unwrap();
+    measure("office, stretches", &office, count, rounds);
     let Some(folder) = std::env::var_os("COTAMA_MAPS_DIR") else {
         println!("SKIPPED: the public maps; set COTAMA_MAPS_DIR to the folder that holds them");
         return;

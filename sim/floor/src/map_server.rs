@@ -48,6 +48,7 @@
 //! ```
 
 mod image;
+mod kinds;
 mod metadata;
 mod pgm;
 mod png;

@@ -25,6 +25,9 @@ const MOST: u8 = 254;
 /// The mark of what is outside, in place of a length.
 const OUTSIDE: u8 = u8::MAX;
 
+/// The half of a cell that holds its column.
+const COLUMN: u64 = u32::MAX as u64;
+
 /// Columns and rows of a rectangle by its length, the rows in the upper half.
 const SHAPES: [u64; 256] = {
     let mut shapes = [0; 256];
@@ -156,7 +159,6 @@ impl Octants {
             stride: [width, height][one] + 1,
             side: 0,
             case: case as u8,
-            is_aside: 0,
         };
         it.side = self.side(&it);
         it
@@ -195,16 +197,14 @@ impl Octants {
         let to_x = (end_x - walk.from[0]) * walk.inverse[0];
         let to_y = (end_y - walk.from[1]) * walk.inverse[1];
         let distance = if to_x < to_y { to_x } else { to_y };
-        // All ones where the ray leaves over the side of a column, in the half of the columns.
-        let aside = u64::from(to_x < to_y).wrapping_neg();
-        let low = u64::from(u32::MAX);
-        let x = whole(walk.biased[0] + distance * walk.along[0]).max(cell & low);
+        // Whether it leaves over the side of a column.
+        let is_aside = to_x < to_y;
+        let x = whole(walk.biased[0] + distance * walk.along[0]).max(cell & COLUMN);
         let y = whole(walk.biased[1] + distance * walk.along[1]).max(cell >> 32);
-        let over_column = end & low | y << 32;
-        let over_row = x | end & !low;
-        walk.cell = over_column & aside | over_row & !aside;
+        let x = if is_aside { end & COLUMN } else { x };
+        let y = if is_aside { y } else { end >> 32 };
+        walk.cell = x | y << 32;
         walk.distance = distance;
-        walk.is_aside = aside as u8 & 1;
         walk.side = self.side(walk);
     }
 
@@ -246,8 +246,6 @@ pub(crate) struct Walk {
     /// The length of the empty rectangle that begins here; 0 where something is.
     side: u8,
     case: u8,
-    /// Whether it entered over the side of a column.
-    is_aside: u8,
 }
 
 impl Walk {
@@ -265,6 +263,10 @@ impl Walk {
 
     /// The axis of the floor along which it entered its cell: 0 for columns.
     pub(crate) fn axis(&self) -> usize {
-        usize::from(self.is_aside == 0) ^ usize::from(u32::from(self.case) & STEEP != 0)
+        // The line of its column is where it came in, if that is as far away, bit for bit.
+        let column = f64::from((self.cell as u32).cast_signed());
+        let to_x = (column - self.from[0]) * self.inverse[0];
+        let is_aside = to_x.to_bits() == self.distance.to_bits();
+        usize::from(!is_aside) ^ usize::from(u32::from(self.case) & STEEP != 0)
     }
 }

@@ -52,10 +52,10 @@ impl core::error::Error for SegmentsError {}
 ///
 /// *Rays.* A ray hits a stretch if its ends are on two sides of it, or one of them is on it; the
 /// sides of an end that two stretches share are computed once each from the same numbers, so that
-/// no ray slips through between them. The distance is rounded. With ε = 2⁻⁵³, `L` the sum of the
+/// no ray slips through between them. The distance is rounded: with ε = 2⁻⁵³, `L` the sum of the
 /// distances from the start of the ray to both ends, and φ the angle at which the ray meets the
-/// stretch, it is off by at most `8 ε L / sin φ` (shown in `tests/exact.rs`). A ray that passes an
-/// end of a stretch as closely as `4 ε L` may hit or miss it.
+/// stretch, it is off by at most `8 ε L / sin φ` (shown in `tests/exact_rays.rs`). A ray that
+/// passes an end of a stretch as closely as `4 ε L` may hit or miss it.
 ///
 /// ```
 /// use cotama_floor::{Bounds, Kind, Point, Ray, Segment, Segments, Sense, Surface};

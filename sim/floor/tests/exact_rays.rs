@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss, clippy::cast_sign_loss)]
 
 use cotama_floor::{
-    Bounds, Cell, Grid, Kind, Point, Ray, Segment, Segments, Sense, Surface, Vector,
+    Bounds, Cell, Field, Grid, Kind, Measure, Needs, Planner, Point, Ray, Segment, Segments, Sense,
+    Surface, Vector, Version, embedded, metres,
 };
 use cotama_fuzz::Random;
 
@@ -221,6 +222,45 @@ fn rays_from_outside_enter_the_floor() {
         let ray = Ray::at(Point::from(from), angle);
         let mut out = [0.0];
         grid.distances(&[ray], 100.0, Sense::Light, &mut out);
-        assert!((out[0] - distance).abs() < 1e-12 || out[0].min(distance).is_infinite(), "{from:?}: {}", out[0]);
+        assert!(
+            (out[0] - distance).abs() < 1e-12 || out[0].min(distance).is_infinite(),
+            "{from:?}: {}",
+            out[0]
+        );
     }
+}
+
+/// Adds the bits of a number to a digest (FNV-1a).
+fn add(digest: &mut u64, number: f64) {
+    for byte in number.to_bits().to_le_bytes() {
+        *digest = (*digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    }
+}
+
+/// A digest that is the same in every build and on every machine.
+#[test]
+fn the_office_has_the_same_bits_everywhere() {
+    let office = embedded::OFFICE.floor().unwrap();
+    let surface = office.surface(Version::Real, &[]).unwrap();
+    let field = Field::of(&surface, 0.2, 1.0, Measure::Seen(Sense::Light)).unwrap();
+    let cells: Vec<_> = field.values().iter().map(|it| *it < 0.1).collect();
+    let cells: Vec<_> =
+        cells.into_iter().map(|it| if it { Cell::Occupied } else { Cell::Free }).collect();
+    let grid = Grid::new(field.columns(), &cells, 0.2, Point::origin()).unwrap();
+    let mut digest = 0xcbf2_9ce4_8422_2325;
+    let mut random = Random(1);
+    for number in 0..20_000 {
+        let mut part = || random.below(1 << 30) as f64 / f64::from(1 << 30);
+        let at = Point::new(30.0 * part(), 20.0 * part());
+        let ray = Ray::at(at, 7.0 * part());
+        let floor: &dyn Surface = if number % 2 == 0 { &surface } else { &grid };
+        let hit = floor.hit(&ray, 8.0, Sense::Sound);
+        add(&mut digest, hit.map_or(-1.0, |it| it.distance + it.cosine));
+        add(&mut digest, floor.clearance(at, 3.0));
+    }
+    let planner = Planner::new(&surface, Needs::default()).unwrap();
+    let place = |name| metres(office.place(name).unwrap().at);
+    let path = planner.route(place("dock"), place("office A")).unwrap();
+    path.points().iter().flat_map(|it| [it.x, it.y]).for_each(|it| add(&mut digest, it));
+    assert_eq!(format!("{digest:016x}"), "861873ebac8412cb");
 }

@@ -13,6 +13,7 @@ const TOGETHER: usize = 256;
 /// Each ray goes one step, again and again, so that the processor works on several at once; those
 /// that have come to their end are left out without a branch.
 pub(super) fn march(grid: &Grid, rays: &[Ray], range: f64, out: &mut [f64]) {
+    #[allow(clippy::large_stack_arrays, reason = "22 KiB in the first cache, not on the heap")]
     let mut walks = [Walk::default(); TOGETHER];
     for (rays, out) in rays.chunks(TOGETHER).zip(out.chunks_mut(TOGETHER)) {
         together(grid, rays, range, &mut walks, out);
@@ -29,8 +30,13 @@ fn together(grid: &Grid, rays: &[Ray], range: f64, walks: &mut [Walk; TOGETHER],
         let from = grid.in_cells(ray.from);
         open[count % TOGETHER] = at as u8;
         if octants.holds(from) {
-            *walk = octants.walk(from, ray.along);
-            count += usize::from(walk.is_open());
+            let mut it = octants.walk(from, ray.along);
+            // Nearly all begin in an empty cell: the first step is foreseen.
+            if it.is_open() {
+                octants.step(&mut it);
+            }
+            count += usize::from(it.is_open()) & usize::from(it.distance <= most);
+            *walk = it;
         } else {
             // Seldom: it is asked alone, below.
             *walk = Walk::default();

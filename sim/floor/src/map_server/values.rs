@@ -1,6 +1,7 @@
 //! Values of cells, from pixels.
 
-use super::image::{Image, ImageError, read};
+use super::image::{Image, ImageError};
+use super::kinds::read;
 use super::metadata::{Metadata, Mode};
 use crate::geometry::Point;
 use crate::grid::{Cell, Grid, GridError};
