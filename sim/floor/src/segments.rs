@@ -1,6 +1,7 @@
 //! A floor of stretches: what a drawing is.
 
 mod cover;
+mod march;
 
 use crate::geometry::{Bounds, Point, Pose, Ray, Vector, cross, do_cross, is_inside, sides};
 use crate::octants::{Octants, Walk};
@@ -140,20 +141,28 @@ impl Segments {
         self.solids.iter().any(|(around, corners)| around.holds(at) && is_inside(corners, at))
     }
 
-    /// Returns the nearest hit in the cell of a walk.
-    fn nearest_here(&self, walk: &Walk, ray: &Ray, sense: Sense, best: &mut Option<Hit>) {
-        let Some((x, y)) = self.octants.cell(walk) else { return };
+    /// Looks at the stretches in the cell of a walk: returns the nearest that is nearer than `best`,
+    /// and then writes how far it is.
+    #[inline]
+    fn nearest_here(
+        &self,
+        walk: &Walk,
+        ray: &Ray,
+        sense: Sense,
+        best: &mut f64,
+    ) -> Option<&Segment> {
+        let (x, y) = self.octants.cell(walk)?;
+        let mut nearest = None;
         for segment in self.cover.at(x, y) {
             if !segment.kind.is_seen_by(sense) {
                 continue;
             }
-            let Some(distance) = meets(ray, segment) else { continue };
-            if best.is_none_or(|it| distance < it.distance) {
-                let along = segment.to - segment.from;
-                let cosine = cross(along, ray.along).abs() / along.norm();
-                *best = Some(Hit { distance, kind: segment.kind, cosine: cosine.min(1.0) });
+            if let Some(distance) = meets(ray, segment).filter(|it| *it < *best) {
+                *best = distance;
+                nearest = Some(segment);
             }
         }
+        nearest
     }
 }
 
@@ -192,7 +201,7 @@ impl Surface for Segments {
         let inside = self.octants.holds(from);
         let before = if inside { 0.0 } else { self.octants.entry(from, ray.along)? };
         let mut walk = self.octants.walk(from + ray.along * before, ray.along);
-        let mut best: Option<Hit> = None;
+        let (mut best, mut nearest) = (f64::INFINITY, None);
         // Until here something nearer may come, in cells.
         let mut most = range * self.per_metre;
         while walk.distance + before <= most {
@@ -203,13 +212,18 @@ impl Surface for Segments {
             if !walk.has_hit() {
                 break;
             }
-            self.nearest_here(&walk, ray, sense, &mut best);
-            if let Some(hit) = best {
-                most = most.min(hit.distance * self.per_metre);
-            }
+            nearest = self.nearest_here(&walk, ray, sense, &mut best).or(nearest);
+            most = most.min(best * self.per_metre);
             self.octants.step_one(&mut walk);
         }
-        best.filter(|it| it.distance <= range)
+        let segment = nearest.filter(|_| best <= range)?;
+        let along = segment.to - segment.from;
+        let cosine = (cross(along, ray.along).abs() / along.norm()).min(1.0);
+        Some(Hit { distance: best, kind: segment.kind, cosine })
+    }
+
+    fn distances(&self, rays: &[Ray], range: f64, sense: Sense, out: &mut [f64]) {
+        march::march(self, rays, range, sense, out);
     }
 
     fn distance(&self, at: Point, most: f64, sense: Sense) -> f64 {

@@ -72,6 +72,7 @@ fn a_million_rays_on_stretches_are_as_far_as_exact_ones() {
     let bounds = Bounds { least: Point::origin(), most: Point::new(16.0, 16.0) };
     let floor = Segments::new(bounds, &segments, &[]).unwrap();
     let (mut worst, mut furthest) = (0.0_f64, 0.0_f64);
+    let mut drawn = Vec::new();
     for _ in 0..1_000_000 {
         let from = [0; 2].map(|_: i128| random.below(16 << POSITION) as i128);
         let along = direction(&mut random);
@@ -79,10 +80,23 @@ fn a_million_rays_on_stretches_are_as_far_as_exact_ones() {
         let (nearest, bound) = all.min_by_key(|it| it.0).expect("there is a wall around");
         let ray = Ray { from: at(from), along: Vector::from(double(along, DIRECTION)) };
         let hit = floor.hit(&ray, 40.0, Sense::Light).expect("there is a wall around");
+        if drawn.len() < 50_000 {
+            drawn.push((ray, hit.distance));
+        }
         let found = (hit.distance * (1_u64 << 60) as f64) as i128;
         let error = (found - nearest).abs() as f64 / (1_u64 << 60) as f64;
         assert!(error <= bound, "{ray:?}: {} is off by {error}, not {bound}", hit.distance);
         (worst, furthest) = (worst.max(error / bound), furthest.max(error));
+    }
+    // Together they go as far, bit for bit; not beyond their range.
+    let rays: Vec<_> = drawn.iter().map(|it| it.0).collect();
+    let mut together = vec![0.0; rays.len()];
+    for range in [40.0, 3.0] {
+        floor.distances(&rays, range, Sense::Light, &mut together);
+        for ((ray, alone), together) in drawn.iter().zip(&together) {
+            let alone = if *alone <= range { *alone } else { f64::INFINITY };
+            assert_eq!(alone.to_bits(), together.to_bits(), "{ray:?}");
+        }
     }
     println!("largest error {furthest:e} m, at most {worst:.2} of its bound");
     assert!(worst > 0.01, "the bound says nothing");

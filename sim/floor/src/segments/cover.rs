@@ -77,9 +77,11 @@ impl Cover {
     }
 
     /// The stretches of a cell.
+    #[inline]
     pub(super) fn at(&self, x: usize, y: usize) -> &[Segment] {
         let at = y * self.columns + x;
-        let [from, to] = [at, at + 1].map(|it| self.starts.get(it).copied().unwrap_or(0) as usize);
+        let start = |at: usize| self.starts.get(at).copied().unwrap_or(0) as usize;
+        let (from, to) = (start(at), start(at + 1));
         self.items.get(from..to).unwrap_or_default()
     }
 
