@@ -141,8 +141,8 @@ impl Segments {
         self.solids.iter().any(|(around, corners)| around.holds(at) && is_inside(corners, at))
     }
 
-    /// Looks at the stretches in the cell of a walk: returns the nearest that is nearer than `best`,
-    /// and then writes how far it is.
+    /// Looks at the stretches in the cell of a walk: returns the nearest that is nearer than
+    /// `best`, and then writes how far it is.
     #[inline]
     fn nearest_here(
         &self,

@@ -1,8 +1,6 @@
 //! Numbers and maps that several tests use.
 #![allow(dead_code, clippy::unwrap_used, clippy::cast_precision_loss)]
 
-pub(crate) mod golden;
-
 use cotama_floor::Grid;
 use cotama_floor::map_server::{Map, Metadata};
 use cotama_fuzz::Random;
@@ -15,11 +13,17 @@ pub(crate) fn part(random: &mut Random) -> f64 {
 
 /// The folder of the public maps; says so where it is not given.
 pub(crate) fn folder() -> Option<PathBuf> {
-    let folder = std::env::var_os("COTAMA_MAPS_DIR");
-    if folder.is_none() {
-        eprintln!("SKIPPED: the public maps; set COTAMA_MAPS_DIR to the folder that holds them");
-    }
-    folder.map(PathBuf::from)
+    cotama_golden::public_folder("COTAMA_MAPS_DIR", "ways on the public maps")
+}
+
+/// Compares what broken files are answered with what is kept.
+#[track_caller]
+pub(crate) fn compare(file: &str, said: &[(String, String)]) {
+    let mut blocks: Vec<_> = said.iter().map(|it| format!("# {}\n{}\n", it.0, it.1)).collect();
+    blocks.push(String::new());
+    let found = blocks.join("\n");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
+    cotama_golden::compare(folder.join(file), &found);
 }
 
 /// The maps of a folder, by name.
