@@ -35,6 +35,8 @@ pub enum SegmentsError {
     TooMany(usize),
     /// A stretch leaves the box, or is none: by number, those of solids last.
     Segment(usize),
+    /// The stretches pass through more than 2²¹ cells, counted for each: they are many and long.
+    Crowded,
 }
 
 impl core::fmt::Display for SegmentsError {
@@ -43,6 +45,10 @@ impl core::fmt::Display for SegmentsError {
             Self::Bounds(it) => write!(f, "a floor of {} x {} m", it.width(), it.height()),
             Self::TooMany(it) => write!(f, "{it} stretches or solids are too many"),
             Self::Segment(it) => write!(f, "stretch {it} leaves the floor, or has no length"),
+            Self::Crowded => {
+                let most = cover::MOST;
+                write!(f, "the stretches, cut into cells, make more than {most} pieces")
+            }
         }
     }
 }
@@ -118,7 +124,7 @@ impl Segments {
         let (cell, columns, rows) = cover::cells(&bounds);
         // A cell around all, so that what stands on the border is inside.
         let origin = bounds.least - Vector::repeat(cell);
-        let cover = Cover::of(&all, origin, cell, columns, rows);
+        let cover = Cover::of(&all, origin, cell, columns, rows).ok_or(SegmentsError::Crowded)?;
         let octants = Octants::of(columns, rows, |x, y| cover.at(x, y).is_empty());
         let with_bounds = |it: &(&[Point], Kind)| Some((Bounds::around(it.0)?, it.0.to_vec()));
         let solids = solids.iter().filter_map(with_bounds).collect();

@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss, clippy::cast_sign_loss)]
 
 use cotama_floor::{
-    Bounds, Cell, Field, Grid, Kind, Measure, Needs, Planner, Point, Ray, Segment, Segments, Sense,
-    Surface, Vector, Version, embedded, metres,
+    Bounds, Cell, Field, Grid, Kind, Measure, Needs, Planner, Point, Ray, Segment, Segments,
+    SegmentsError, Sense, Surface, Vector, Version, embedded, metres,
 };
 use cotama_fuzz::Random;
 
@@ -125,6 +125,27 @@ fn no_ray_slips_through_the_corners_of_a_room() {
         let hit = floor.hit(&ray, 40.0, Sense::Light);
         assert!(hit.is_some_and(|it| it.distance <= way.norm() + 1e-9), "{ray:?}");
     }
+}
+
+#[test]
+fn a_crowd_of_long_stretches_is_refused_and_not_thinned_out() {
+    let bounds = Bounds { least: Point::origin(), most: Point::new(500.0, 500.0) };
+    let crowd = |count: usize| {
+        let step = 500.0 / count as f64;
+        let across = |at: usize| Segment {
+            from: Point::new(step * at as f64, 0.0),
+            to: Point::new(500.0 - step * at as f64, 500.0),
+            kind: Kind::Wall,
+        };
+        Segments::new(bounds, &(0..count).map(across).collect::<Vec<_>>(), &[])
+    };
+    assert_eq!(crowd(50_000).unwrap_err(), SegmentsError::Crowded);
+    // Of so many as fit the last one is there.
+    let many = crowd(4_000).unwrap();
+    let ray = Ray { from: Point::new(499.95, 1.0), along: Vector::new(-1.0, 0.0) };
+    let hit = many.hit(&ray, 9.0, Sense::Light).unwrap();
+    let last = 499.875 - 499.75 / 500.0;
+    assert!((hit.distance - (499.95 - last)).abs() < 1e-9, "{hit:?}");
 }
 
 /// Walks from line to line: the distances in cells at which the ray first touches an occupied cell,

@@ -28,8 +28,9 @@ impl Floor {
     ///
     /// The keys are shown by the floor that ships, [`office`](crate::embedded::OFFICE). Lengths
     /// are whole numbers of mm, angles of degrees. At most 500 m x 500 m, 1,000 entries of a kind,
-    /// [`MAX_POINTS`] points of a line, [`MAX_SEGMENTS`](crate::MAX_SEGMENTS) pieces in all; names
-    /// have at most [`MAX_NAME`] characters.
+    /// [`MAX_POINTS`] points of a line, [`MAX_SEGMENTS`](crate::MAX_SEGMENTS) pieces in all (long
+    /// ones less: [`Crowded`](crate::SegmentsError::Crowded)); names have at most [`MAX_NAME`]
+    /// characters.
     ///
     /// # Errors
     /// All errors of the file, with their places: what cannot be read, and what makes no sense.

@@ -11,8 +11,8 @@ const CELLS: f64 = 65_536.0;
 const SMALLEST: f64 = 0.05;
 /// A stretch belongs to a cell that it misses by so much, in metres: rays are rounded by less.
 const MARGIN: f64 = 1e-6;
-/// The most entries of cells.
-const MOST: usize = 1 << 24;
+/// The most entries of cells: of 40 bytes each.
+pub(super) const MOST: usize = 1 << 21;
 
 /// Returns the side of a cell, and the columns and rows with one around.
 pub(super) fn cells(bounds: &Bounds) -> (f64, usize, usize) {
@@ -20,6 +20,17 @@ pub(super) fn cells(bounds: &Bounds) -> (f64, usize, usize) {
     let cell = (width * height / CELLS).sqrt().max(SMALLEST).max(width.max(height) / 16_384.0);
     let count = |size: f64| (size / cell) as usize + 3;
     (cell, count(width), count(height))
+}
+
+/// Returns the least and the largest x of a stretch between two heights, about; of one that is
+/// nearly level those of all of it.
+fn across(segment: &Segment, low: f64, high: f64, cell: f64) -> (f64, f64) {
+    let Segment { from, to, .. } = segment;
+    let along = to - from;
+    let at = |y: f64| from.x + along.x * ((y - from.y) / along.y).clamp(0.0, 1.0);
+    let level = along.y.abs() <= 2.0 * cell;
+    let (one, two) = if level { (from.x, to.x) } else { (at(low), at(high)) };
+    (one.min(two), one.max(two))
 }
 
 #[derive(Clone, Debug)]
@@ -35,28 +46,36 @@ pub(super) struct Cover {
 }
 
 impl Cover {
+    /// Makes the lists; `None` if they have more than [`MOST`] entries together.
     pub(super) fn of(
         segments: &[Segment],
         origin: Point,
         cell: f64,
         columns: usize,
         rows: usize,
-    ) -> Self {
+    ) -> Option<Self> {
         let mut touched: Vec<(u32, u32)> = Vec::new();
+        let margin = Vector::repeat(MARGIN);
         for (index, segment) in segments.iter().enumerate() {
-            let margin = Vector::repeat(MARGIN);
             let low = (segment.from.inf(&segment.to) - margin - origin) / cell;
             let high = (segment.from.sup(&segment.to) + margin - origin) / cell;
-            let xs = low.x as usize..=(high.x as usize).min(columns - 1);
             for y in low.y as usize..=(high.y as usize).min(rows - 1) {
-                for x in xs.clone() {
+                let floor = origin.y + y as f64 * cell - MARGIN;
+                let (first, last) = across(segment, floor, floor + cell + 2.0 * MARGIN, cell);
+                let column = |x: f64| ((x - origin.x) / cell) as usize;
+                // One more on either side, as the ends are rounded.
+                let xs = column(first).saturating_sub(1)..=(column(last) + 1).min(columns - 1);
+                for x in xs {
                     let least = origin + Vector::new(x as f64, y as f64) * cell - margin;
                     let most = least + Vector::repeat(cell) + margin * 2.0;
                     let it = Bounds { least, most };
-                    if crosses_box([segment.from, segment.to], &it) && touched.len() < MOST {
+                    if crosses_box([segment.from, segment.to], &it) {
                         touched.push(((y * columns + x) as u32, index as u32));
                     }
                 }
+            }
+            if touched.len() > MOST {
+                return None;
             }
         }
         touched.sort_unstable();
@@ -69,7 +88,7 @@ impl Cover {
         }
         let items = touched.iter().filter_map(|it| segments.get(it.1 as usize).copied());
         let items = items.collect();
-        Self { columns, rows, cell, starts, items, segments: segments.to_vec() }
+        Some(Self { columns, rows, cell, starts, items, segments: segments.to_vec() })
     }
 
     pub(super) fn segments(&self) -> &[Segment] {
