@@ -43,6 +43,8 @@ mod json;
 pub mod missions;
 pub mod nets;
 #[cfg(feature = "std")]
+pub mod reading;
+#[cfg(feature = "std")]
 pub mod robots;
 pub mod team;
 #[cfg(feature = "std")]

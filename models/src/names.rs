@@ -5,7 +5,7 @@ pub(crate) const MAX_ID: usize = 64;
 
 /// A text from a file, as it is quoted in a message: one line, without control characters, not too
 /// long.
-pub(crate) fn quoted(text: &str) -> String {
+pub fn quoted(text: &str) -> String {
     let short: String = text.chars().take(MAX_ID).collect();
     let more = if short.len() < text.len() { "..." } else { "" };
     format!("`{}{more}`", short.escape_debug())
@@ -23,7 +23,7 @@ pub(crate) fn nearest<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> O
 }
 
 /// "unknown ... `name`; did you mean ...?", with the known names when none is near.
-pub(crate) fn unknown<'n>(
+pub fn unknown<'n>(
     what: &str,
     name: &str,
     known: impl Iterator<Item = &'n str> + Clone,

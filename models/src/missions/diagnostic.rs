@@ -110,16 +110,15 @@ fn push_without_numbers(to: &mut String, text: &str) {
 }
 
 impl Diagnostic {
-    pub(crate) fn new(
-        span: Range<usize>,
-        message: impl Into<String>,
-        label: impl Into<String>,
-    ) -> Self {
+    /// An error without a remedy yet.
+    pub fn new(span: Range<usize>, message: impl Into<String>, label: impl Into<String>) -> Self {
         let (message, label) = (message.into(), label.into());
         Self { message, span, label, help: None, times: 1, also: Vec::new() }
     }
 
-    pub(crate) fn help(self, help: impl Into<String>) -> Self {
+    /// The same error with a remedy.
+    #[must_use]
+    pub fn help(self, help: impl Into<String>) -> Self {
         Self { help: Some(help.into()), ..self }
     }
 }

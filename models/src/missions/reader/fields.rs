@@ -6,6 +6,7 @@
 
 mod json;
 mod more;
+mod points;
 mod units;
 
 use crate::missions::diagnostic::{Diagnostic, Spanned};
@@ -27,22 +28,25 @@ const MAX_BYTES: usize = 16 << 20;
 const MANY_SYNTAX_ERRORS: usize = 4;
 
 /// Marks an error that was already reported.
-pub(crate) struct Reported;
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Reported;
 
 /// Collects the errors.
-#[derive(Default)]
-pub(crate) struct Sink {
+#[derive(Debug, Default)]
+pub struct Sink {
     errors: RefCell<Vec<Diagnostic>>,
     /// Whether the file is JSON, and speaks of objects and lists.
     is_json: Cell<bool>,
 }
 
 impl Sink {
-    pub(crate) fn report(&self, diagnostic: Diagnostic) {
+    /// Adds an error.
+    pub fn report(&self, diagnostic: Diagnostic) {
         self.errors.borrow_mut().push(diagnostic);
     }
 
-    pub(crate) fn is_empty(&self) -> bool {
+    /// Whether there is no error yet.
+    pub fn is_empty(&self) -> bool {
         self.errors.borrow().is_empty()
     }
 
@@ -52,7 +56,7 @@ impl Sink {
 }
 
 /// Reads a document; `read` gets its root unless the text is not TOML.
-pub(crate) fn document<T>(
+pub fn document<T>(
     text: &str,
     sink: &Sink,
     format: &'static str,
@@ -103,7 +107,8 @@ fn read_root<T>(
 }
 
 /// The entries of one table, with a note of which keys were asked for.
-pub(crate) struct Fields<'t> {
+#[derive(Debug)]
+pub struct Fields<'t> {
     sink: &'t Sink,
     entries: &'t DeTable<'t>,
     span: Range<usize>,
@@ -123,12 +128,13 @@ impl<'t> Fields<'t> {
         Self { sink, entries, span, what, most_entries, format: "", asked, missing }
     }
 
-    pub(crate) fn report(&self, diagnostic: Diagnostic) {
+    /// Adds an error.
+    pub fn report(&self, diagnostic: Diagnostic) {
         self.sink.report(diagnostic);
     }
 
     /// Returns the position of a key's value, or else of the table.
-    pub(crate) fn span_of(&self, key: &str) -> Range<usize> {
+    pub fn span_of(&self, key: &str) -> Range<usize> {
         self.entries.get(key).map_or_else(|| self.span.clone(), toml::Spanned::span)
     }
 
@@ -195,7 +201,7 @@ impl<'t> Fields<'t> {
     }
 
     /// A required integer within a range.
-    pub(crate) fn integer<T: TryFrom<i64>>(
+    pub fn integer<T: TryFrom<i64>>(
         &mut self,
         key: &'static str,
         range: RangeInclusive<i64>,
@@ -205,7 +211,10 @@ impl<'t> Fields<'t> {
     }
 
     /// An integer that may be left out.
-    pub(crate) fn optional_integer<T: TryFrom<i64>>(
+    ///
+    /// # Errors
+    /// When it is wrong; that is reported.
+    pub fn optional_integer<T: TryFrom<i64>>(
         &mut self,
         key: &'static str,
         range: RangeInclusive<i64>,
@@ -225,13 +234,16 @@ impl<'t> Fields<'t> {
     }
 
     /// A required text.
-    pub(crate) fn text(&mut self, key: &'static str) -> Option<Spanned<String>> {
+    pub fn text(&mut self, key: &'static str) -> Option<Spanned<String>> {
         let node = self.required(key)?;
         self.text_of(key, node)
     }
 
     /// A text that may be left out.
-    pub(crate) fn optional_text(
+    ///
+    /// # Errors
+    /// When it is wrong; that is reported.
+    pub fn optional_text(
         &mut self,
         key: &'static str,
     ) -> Result<Option<Spanned<String>>, Reported> {
@@ -239,15 +251,6 @@ impl<'t> Fields<'t> {
             None => Ok(None),
             Some(node) => self.text_of(key, node).map(Some).ok_or(Reported),
         }
-    }
-
-    /// A truth value that may be left out.
-    pub(crate) fn optional_flag(&mut self, key: &'static str) -> Result<Option<bool>, Reported> {
-        let Some(node) = self.optional(key) else { return Ok(None) };
-        if node.get_ref().as_bool().is_none() {
-            self.wrong_type(key, node, "`true` or `false`");
-        }
-        node.get_ref().as_bool().map(Some).ok_or(Reported)
     }
 
     /// Whether a text is an id; reports it if not.
@@ -263,12 +266,12 @@ impl<'t> Fields<'t> {
     }
 
     /// A required id.
-    pub(crate) fn id(&mut self, key: &'static str) -> Option<Spanned<String>> {
+    pub fn id(&mut self, key: &'static str) -> Option<Spanned<String>> {
         self.text(key).filter(|id| self.is_id(&id.value, id.span.clone()))
     }
 
     /// A required text out of a fixed set.
-    pub(crate) fn choice(
+    pub fn choice(
         &mut self,
         key: &'static str,
         what: &str,
@@ -442,7 +445,7 @@ impl<'t> Fields<'t> {
     }
 
     /// Reports keys that are missing and keys that nobody asked for.
-    pub(crate) fn finish(self) {
+    pub fn finish(self) {
         let mut missing = self.missing.clone();
         for (key, node) in self.by_place() {
             let name = key.value.as_str();

@@ -1,4 +1,4 @@
-//! Numbers with decimals, longer lists, and lists that may be left out.
+//! Numbers with decimals, truth values, longer lists, and lists that may be left out.
 
 use super::{Fields, Reported, Sink};
 use crate::missions::diagnostic::Spanned;
@@ -6,7 +6,7 @@ use toml::de::DeValue;
 
 impl<'t> Fields<'t> {
     /// Returns the collector of errors.
-    pub(crate) fn sink(&self) -> &'t Sink {
+    pub fn sink(&self) -> &'t Sink {
         self.sink
     }
 
@@ -25,6 +25,18 @@ impl<'t> Fields<'t> {
             }
         };
         Ok(Some(Spanned { value, span: node.span() }))
+    }
+
+    /// A truth value that may be left out.
+    ///
+    /// # Errors
+    /// When it is wrong; that is reported.
+    pub fn optional_flag(&mut self, key: &'static str) -> Result<Option<bool>, Reported> {
+        let Some(node) = self.optional(key) else { return Ok(None) };
+        if node.get_ref().as_bool().is_none() {
+            self.wrong_type(key, node, "`true` or `false`");
+        }
+        node.get_ref().as_bool().map(Some).ok_or(Reported)
     }
 
     /// A list of texts that may be left out or empty.
@@ -63,12 +75,12 @@ impl<'t> Fields<'t> {
     }
 
     /// Returns the position of this table.
-    pub(crate) fn whole(&self) -> std::ops::Range<usize> {
+    pub fn whole(&self) -> std::ops::Range<usize> {
         self.span.clone()
     }
 
     /// [`tables`](Self::tables), with a limit of its own.
-    pub(crate) fn tables_up_to(
+    pub fn tables_up_to(
         &mut self,
         key: &'static str,
         required: bool,

@@ -67,7 +67,7 @@ fn times(digits: &str, factor: u64) -> Option<u64> {
 }
 
 /// The units with which keys end.
-const ENDS: [&str; 8] = ["mm_s", "per_dm", "permille", "mm", "ms", "mj", "mw", "g"];
+const ENDS: [&str; 9] = ["mm_s", "per_dm", "permille", "deg", "mm", "ms", "mj", "mw", "g"];
 
 /// Whether a key is one that is known, without its unit.
 pub(super) fn is_without_unit(found: &str, known: &str) -> bool {
