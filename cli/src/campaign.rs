@@ -19,9 +19,9 @@ use cotama_campaign::statistics::{Decision, Interval};
 use cotama_campaign::strategy::BLOCK;
 use cotama_campaign::subject::{Policy, Subject};
 use cotama_models::missions::Mission;
+use cotama_models::robots::RobotFile;
 use cotama_pages::campaign::{self as page, Shown};
 use cotama_sim::options::STEPS;
-use cotama_models::robots::RobotFile;
 use cotama_sim::trace::RobotText;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -76,7 +76,7 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
     let usual = args.policy().policy(mission.is_supervised(), STEPS);
     let planner = policy.planner.filter(|it| *it != usual.of(&mission));
     let header = Header::new(texts, &campaign.settings, args.policy().name(), shard);
-    let robot = mission.robot().map(|it| RobotText::of(it));
+    let robot = mission.robot().map(RobotText::of);
     conduct(args, &Header { planner, robot, ..header }, &campaign, screen)
 }
 

@@ -28,7 +28,8 @@ impl Hindered {
     /// The events at places that are reached happen; returns those of this period.
     pub(super) fn happen(&mut self, now: Millis, x: Millimetres) -> Vec<Event> {
         let mut happened = Vec::new();
-        while let Some(event) = self.waiting.pop_front_if(|it| it.x <= x) {
+        while let Some(event) = self.waiting.front().copied().filter(|it| it.x <= x) {
+            self.waiting.pop_front();
             match event.kind {
                 EventKind::Obstacle { delay } => {
                     let from = self.until.map_or(now, |it| it.max(now));

@@ -137,7 +137,7 @@ fn units_of(mission: &Mission, hardware: usize) -> Vec<usize> {
     let Some(kind) = mission.hardware.get(hardware) else { return Vec::new() };
     let is_unit = |it: &cotama_models::robots::Failure| {
         let of = it.loses.hardware.trailing_zeros() as usize;
-        it.loses.hardware.count_ones() == 1
+        it.loses.hardware.is_power_of_two()
             && it.loses.modules == 0
             && robot.hardware.get(of).is_some_and(|it| it.kind == kind.name)
     };

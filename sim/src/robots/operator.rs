@@ -64,7 +64,7 @@ impl Operator {
         Some(match (self.next.pop_front()?, view.place) {
             (Answer::Chooses(it), _) => Told::Chooses(it),
             (Answer::Done, Where::Runs { sub_objective, .. }) => Told::Done(sub_objective),
-            (Answer::Done, _) | (Answer::GivesUp, _) => Told::GivesUp,
+            (Answer::Done | Answer::GivesUp, _) => Told::GivesUp,
         })
     }
 

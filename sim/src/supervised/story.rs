@@ -358,8 +358,8 @@ impl Point<'_> {
         let later = chain.asked_us.filter(|&it| it > first.t_us);
         let asked =
             later.map_or_else(String::new, |it| format!("; it asks after {}", self.since(it)));
-        let said: String =
-            chain.operator.iter().map(|it| format!("; {}", said(answer(it)))).collect();
+        let said: Vec<_> = chain.operator.iter().map(|it| said(answer(it))).collect();
+        let said: String = said.iter().flat_map(|it| ["; ", it.as_str()]).collect();
         Some(format!(
             "after {}, {}: {runs}{again}{asked}{said}",
             self.since(first.t_us),

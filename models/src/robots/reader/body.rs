@@ -40,7 +40,7 @@ pub(super) fn body(mut fields: Fields<'_>) -> Option<Body> {
     let source = super::words(&mut fields, "source");
     let impact = match (mass.ok()?, energy.ok()?) {
         (Some(mass), Some(energy)) => Some((mass, energy)),
-        (None, None) | (Some(_), None) => None,
+        (None | Some(_), None) => None,
         (None, Some(_)) => {
             let (span, message) = (fields.span_of("impact_energy_max_mj"), "no `mass_g`");
             let it = Diagnostic::new(span, "the energy of an impact is that of a mass", message);
