@@ -248,8 +248,8 @@ impl Observed {
 }
 
 /// How long a failure lets the robot move without a required module: until it is seen, also after
-/// each time that a module is started anew for it, told, decided and answered, a round each, and the
-/// robot stands.
+/// each time that a module is started anew for it; told, decided and answered, a round each; and
+/// until the robot stands.
 fn allowed_ms(row: &row::Failure, body: &Body) -> u64 {
     let times = 1 + row.restarts.map_or(0, |it| u64::from(it.times));
     let rounds = 5 * body.period.0;

@@ -29,8 +29,8 @@ pub enum Requirement {
     NotFailed,
     /// The robot never moves after it is safe.
     StandsWhenSafe,
-    /// The robot brakes within [`BRAKING_MM`], or what its file says, when the permit to move is gone, unless a motor ran
-    /// away.
+    /// The robot brakes within [`BRAKING_MM`], or what its file says, when the permit to move is
+    /// gone, unless a motor ran away.
     Brakes,
     /// The robot never moves without a module that it requires for longer than the failures of the
     /// run take to be detected, decided and answered, one after the other: [`allowed_ms`].

@@ -142,7 +142,8 @@ impl Failures {
         seen
     }
 
-    /// In how many periods observers see nothing new while the robot stays where it is in its drive.
+    /// In how many periods observers see nothing new while the robot stays where it is in its
+    /// drive.
     pub(super) fn unseen_for(&self, robot: &Robot, place: Where) -> u64 {
         let broken = self.broken(robot);
         let open = self.open(robot).filter(|it| !it.0.found);
