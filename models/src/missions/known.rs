@@ -1,7 +1,7 @@
 //! The numbers and words that mission files and files of faults can hold, as the reader checks them
 //! and a schema for editors repeats them.
 
-use super::definition::PlannedFor;
+use super::terms::PlannedFor;
 use crate::cotama::{Configuration, SubObjective};
 use cotama_core::hardware::MAX_UNITS;
 use std::ops::RangeInclusive;

@@ -34,12 +34,14 @@ mod scenario;
 #[cfg(feature = "std")]
 mod supervised;
 #[cfg(feature = "std")]
+mod terms;
+#[cfg(feature = "std")]
 mod under;
 
 #[cfg(feature = "std")]
 pub use definition::{
-    AXES, Definition, Does, Hardware, HardwareRequirement, MotionPower, Objective, PlannedFor,
-    Robot, Standing, Supervision, Task, Tio, Zone, harmless_speed,
+    AXES, Definition, Does, Hardware, HardwareRequirement, Objective, Robot, Standing, Supervision,
+    Task, Tio, Zone,
 };
 #[cfg(feature = "std")]
 pub use diagnostic::{Diagnostic, MAX_DIAGNOSTICS, MissionErrors, Position, Spanned, told_with};
@@ -54,5 +56,7 @@ pub use scenario::{
 };
 #[cfg(feature = "std")]
 pub use supervised::MAX_SUPERVISED_OBJECTIVES;
+#[cfg(feature = "std")]
+pub use terms::{MotionPower, PlannedFor, harmless_speed};
 #[cfg(feature = "std")]
 pub use under::Under;

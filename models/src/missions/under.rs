@@ -1,9 +1,10 @@
 //! Missions of a robot that has a file of its own: its body, hardware and options.
 
-use super::definition::{Definition, Hardware, MotionPower, Robot, Task, Tio, harmless_speed};
+use super::definition::{Definition, Hardware, Robot, Task, Tio};
 use super::diagnostic::Diagnostic;
 use super::mission::FORMAT_2;
 use super::reader::Sink;
+use super::terms::{MotionPower, harmless_speed};
 use crate::robots::{self, Mode, Parts, RobotFile};
 use cotama_core::hardware::{Equipment, MAX_KINDS};
 use cotama_core::units::{Millijoules, Milliwatts};

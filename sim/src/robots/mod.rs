@@ -19,7 +19,6 @@
 mod failing;
 mod hindered;
 mod operator;
-mod records;
 mod summary;
 mod world;
 

@@ -2,7 +2,7 @@
 //! compared.
 
 use super::Faults;
-use crate::missions::definition::PlannedFor;
+use crate::missions::terms::PlannedFor;
 
 /// A `panorama-faults/1` file with all that it says.
 ///

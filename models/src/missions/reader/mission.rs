@@ -5,14 +5,13 @@ use super::faults;
 use super::fields::{Fields, Reported};
 use super::path::{objective, one_after_the_other, task, zone};
 use super::supervision::{self, Supervised};
-use crate::missions::definition::{
-    AXES, Definition, Hardware, MotionPower, PlannedFor, Robot, Standing, Task, Tio, harmless_speed,
-};
+use crate::missions::definition::{AXES, Definition, Hardware, Robot, Standing, Task, Tio};
 use crate::missions::diagnostic::{Diagnostic, Spanned};
 use crate::missions::known::{
     AT_LEAST_ZERO, ENERGIES, NAME_LENGTHS, NEEDED_UNITS, OBJECTIVES, POSITIVE, QUALITIES,
     ROUNDINGS, SPEEDS, UNITS,
 };
+use crate::missions::terms::{MotionPower, PlannedFor, harmless_speed};
 use crate::missions::under::Under;
 use crate::names::quoted;
 use crate::robots::{EMBEDDED, RobotFile};

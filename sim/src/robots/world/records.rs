@@ -1,6 +1,6 @@
 //! The records of a run of a robot, in the terms of every trace.
 
-use super::world::World;
+use super::World;
 use crate::record::Recorder;
 use crate::run::Reason;
 use crate::trace::supervised::{Configured, Decision, Diagnosis, Failure, Fired, Told};
@@ -13,7 +13,7 @@ use cotama_models::cotama::{Cause, Class, Mode as Autonomy};
 use cotama_models::robots::{self, Mode, Where};
 
 /// Where records go, and how much of a run is recorded.
-pub(super) struct Recording<'r, R> {
+pub(in crate::robots) struct Recording<'r, R> {
     to: &'r mut R,
     plans: usize,
     activity: Option<usize>,
@@ -83,7 +83,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     ) {
         let (t_us, x_mm) = self.here();
         let names: Vec<_> = self.robot.flags().map(|it| it.1).collect();
-        let mode = super::failing::mode(self.robot, self.level.place());
+        let mode = crate::robots::failing::mode(self.robot, self.level.place());
         let worst = taken.iter().filter_map(|it| self.robot.failures.get(*it));
         let worst = worst.map(|it| it.severity(mode.unwrap_or(Mode::Autonomous))).max();
         let Some(severity) = worst else { return };
@@ -183,7 +183,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let runs = self.configuration().and_then(|it| self.robot.configurations.get(it));
         let configuration = runs.map(|it| it.name.clone());
         let place = self.level.place();
-        let mode = match (place, super::failing::mode(self.robot, place)) {
+        let mode = match (place, crate::robots::failing::mode(self.robot, place)) {
             (Where::Waits, _) => Autonomy::HandOver,
             (_, Some(Mode::Operator)) => {
                 let moves = runs.is_some_and(|it| it.speed.0 > 0);

@@ -1,0 +1,110 @@
+//! How a robot moves in a period, what it draws, and what of it must never happen.
+
+use super::World;
+use crate::robots::failing::{Demand, mode};
+use cotama_core::player::Program;
+use cotama_core::units::{Millimetres, MillimetresPerSecond, Milliwatts};
+use cotama_models::robots::{Global, Mode, Parts, Where};
+
+impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
+    /// The robot goes on for a period: who holds a permit moves it.
+    pub(super) fn travel(&mut self) {
+        let before = self.drive.x();
+        let permitted = self.level.permits();
+        let held = self.hindered.waits();
+        let speed = if permitted && !held { self.pace().0 } else { MillimetresPerSecond(0) };
+        if held {
+            self.drive.stand();
+        }
+        let demand = Demand {
+            speed,
+            most: self.body.speed_max,
+            halt: self.level.is_halted(),
+            end: Millimetres(self.goal().0 + self.hindered.owed().0),
+            led: mode(self.robot, self.place) == Some(Mode::Operator),
+        };
+        self.failures.go(self.robot, self.now, &demand, &mut self.drive);
+        let moved = self.drive.x() > before;
+        self.hindered.take(&mut self.drive, before);
+        let power = self.hindered.real(self.mission, before, self.power(moved));
+        self.energy_uj = self.energy_uj.saturating_add(power.0.saturating_mul(self.body.period.0));
+        self.run.moved_when_safe |= moved && self.level.global() == Global::Safe;
+        self.measure(before, permitted);
+    }
+
+    /// Measures the conditions that must never hold, or not for long; the period began here.
+    pub(super) fn measure(&mut self, before: Millimetres, permitted: bool) {
+        if let Where::Runs { configuration, .. } = self.place
+            && self.drive.speed().0 > 0
+            && let Some(required) = self.robot.configurations.get(configuration)
+        {
+            let lacks = |lost: Parts| required.required & !self.robot.available(lost) != 0;
+            if !self.failures.all.is_empty() && lacks(self.failures.broken(self.robot)) {
+                for (it, conduct) in self.failures.all.iter().zip(&mut self.run.conduct) {
+                    let row = self.robot.failures.get(it.number);
+                    if !it.over && row.is_some_and(|it| lacks(it.loses)) {
+                        conduct.exposed.0 += self.body.period.0;
+                        self.run.exposed = self.run.exposed.max(conduct.exposed);
+                    }
+                }
+            }
+        }
+        if self.permitted && !permitted {
+            self.withdrawn = Some(before);
+        }
+        if (permitted || self.drive.speed().0 == 0)
+            && let Some(from) = self.withdrawn.take()
+        {
+            let way = Millimetres(self.drive.x().0.saturating_sub(from.0));
+            self.run.braked = self.run.braked.max(way);
+        }
+        self.permitted = permitted;
+    }
+
+    /// Speed and power of what runs: as planned with it, and no faster than it allows.
+    pub(super) fn pace(&self) -> (MillimetresPerSecond, Milliwatts) {
+        let runs = self.configuration();
+        let (speed, power) = self.planning.pace(self.activity(), runs);
+        let allowed = runs.and_then(|it| self.robot.configurations.get(it)).map(|it| it.speed);
+        let allowed = allowed.unwrap_or(MillimetresPerSecond(0));
+        // Who drives by hand has no planned option.
+        let by_hand = mode(self.robot, self.place) == Some(Mode::Operator);
+        if by_hand {
+            (allowed, self.body.motion_power.at(allowed))
+        } else {
+            (speed.min(allowed), power)
+        }
+    }
+
+    /// Returns the power of the robot: that of its pace while it moves, or that of its task where
+    /// it stands for one; else that of rest.
+    pub(super) fn power(&self, moved: bool) -> Milliwatts {
+        let stands = self.level.global() == Global::Waits && self.objective_stands();
+        if stands {
+            return self.planning.pace(self.activity(), None).1;
+        }
+        if moved || self.drive.speed().0 > 0 {
+            return self.pace().1;
+        }
+        self.planning.rest_power(self.activity(), self.configuration())
+    }
+
+    pub(super) fn objective_stands(&self) -> bool {
+        self.mission.objectives.get(self.objective).is_some_and(|it| !it.travels())
+    }
+
+    /// The end of the drive; where there is none, so far that the robot can brake.
+    pub(super) fn goal(&self) -> Millimetres {
+        let braked = Millimetres(self.drive.x().0 + self.drive.braking_distance().0 + 1);
+        let drives = self.level.global() == Global::Drives;
+        match self.mission.objectives.get(self.objective).filter(|it| drives && it.travels()) {
+            Some(it) => it.x_end,
+            None => braked,
+        }
+    }
+
+    pub(super) fn at_goal(&self) -> bool {
+        let goal = self.mission.objectives.get(self.objective).map(|it| it.x_end);
+        goal.is_some_and(|it| self.drive.x() >= it)
+    }
+}

@@ -1,0 +1,93 @@
+//! Passing over periods in which nothing happens.
+
+use super::World;
+use crate::robots::failing::{mode, moves};
+use crate::run::LONGEST;
+use cotama_core::player::Program;
+use cotama_core::units::{Millimetres, Millis};
+use cotama_models::robots::{Global, Mode, Moment, Where};
+
+impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
+    /// Passes over periods in which nothing happens, up to the next second, in which margins are
+    /// looked at.
+    pub(super) fn pass_over(&mut self) {
+        let busy = !self.calm || !self.untold.is_empty() || self.level.player().round_is_due();
+        let held = self.hindered.waits() || self.hindered.owed() > Millimetres(0);
+        if busy || held || !self.failures.thinks(self.robot) {
+            return;
+        }
+        let until =
+            |it: Millis| (it.0.saturating_sub(self.now.0) / self.body.period.0).saturating_sub(1);
+        let mut most = until(Millis((self.now.0 / 1_000 + 1) * 1_000));
+        most = most.min(until(LONGEST)).min(self.failures.unseen_for(self.robot, self.place));
+        most = self.watching.late_at().map_or(most, |it| most.min(until(it)));
+        let changes = self.failures.changes(self.robot, self.now);
+        most = changes.map_or(most, |it| most.min(until(it)));
+        let moments = self.waiting.iter().map(|it| it.when);
+        for it in moments.chain(self.until.iter().flatten().copied()) {
+            most = most.min(self.periods_before(it));
+        }
+        let activities = &self.mission.scenario().activities;
+        let borders = activities.iter().flat_map(|it| [it.x_start, it.x_end]);
+        for border in borders.chain(self.hindered.next()).filter(|it| *it > self.drive.x()) {
+            most = most.min(self.drive.times_before(border, self.body.period).unwrap_or(0));
+        }
+        let waits = match self.level.global() {
+            Global::Waits => {
+                let activity = self.planning.activity(self.objective, self.drive.x().0);
+                until(Millis(self.objective_since.0 + self.planning.standing(activity).0))
+            }
+            Global::Drives => match (self.place, mode(self.robot, self.place)) {
+                (Where::Runs { .. }, Some(Mode::Autonomous)) if moves(self.robot, self.place) => {
+                    u64::MAX
+                }
+                (Where::Runs { configuration, .. }, Some(Mode::Autonomous)) => {
+                    let of = self.robot.configurations.get(configuration);
+                    until(Millis(self.place_since.0 + of.map_or(0, |it| it.takes.0)))
+                }
+                _ => until(self.operator.waits_until()),
+            },
+            Global::Secures | Global::Safe => 0,
+        };
+        most = most.min(waits);
+        if most == 0 {
+            return;
+        }
+        let power = self.power(self.drive.speed().0 > 0);
+        let power = self.hindered.real(self.mission, self.drive.x(), power);
+        self.drive.glide(most, self.body.period);
+        self.failures.look_on(self.robot, self.place, most);
+        self.energy_uj = self
+            .energy_uj
+            .saturating_add(power.0.saturating_mul(self.body.period.0).saturating_mul(most));
+        self.exposed_on(most);
+        self.now.0 += self.body.period.0 * most;
+        self.run.rounds += most;
+    }
+
+    /// The exposures of the last period go on for so many.
+    pub(super) fn exposed_on(&mut self, periods: u64) {
+        for _ in 0..if self.failures.all.is_empty() { 0 } else { periods } {
+            self.measure(self.drive.x(), self.permitted);
+        }
+    }
+
+    /// In how many periods a moment has not come yet, with everything as it is.
+    pub(super) fn periods_before(&self, when: Moment) -> u64 {
+        let until =
+            |it: u64| (it.saturating_sub(self.now.0) / self.body.period.0).saturating_sub(1);
+        let since = |place: Option<usize>, after: Millis| {
+            let first = self.first.iter().find(|it| it.0 == place);
+            first.map_or(u64::MAX, |it| until(it.1.0 + after.0))
+        };
+        if self.is_due(when) {
+            return u64::MAX; // it has come
+        }
+        match when {
+            Moment::Place(x) => self.drive.times_before(x, self.body.period).unwrap_or(0),
+            Moment::At(at) => until(at.0),
+            Moment::During(place, after) => since(Some(place), after),
+            Moment::Waiting(after) => since(None, after),
+        }
+    }
+}

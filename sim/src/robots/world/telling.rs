@@ -1,0 +1,222 @@
+//! A round of the supervisors: what they are told, and what comes of it.
+
+use super::World;
+use super::records::Recording;
+use crate::record::Recorder;
+use crate::robots::failing::{mode, moves};
+use crate::robots::operator::View;
+use crate::supervised::Violation;
+use cotama_core::net::TransitionId;
+use cotama_core::player::{Firing, Names, Observer, Program};
+use cotama_core::system::Of;
+use cotama_models::cotama::Cause;
+use cotama_models::robots::{Decision, Global, Mode, Told, Where};
+
+impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
+    /// The supervisors take a round, and are told one thing.
+    pub(super) fn round<R: Recorder>(&mut self, recording: &mut Recording<'_, R>) {
+        let mut seen = Seen::default();
+        self.level.round(self.now, &mut seen);
+        self.run.rounds += 1;
+        self.note_all(recording, &mut seen);
+        let (told, cause) = match self.untold.pop_front() {
+            Some((report, cause)) => (Some(Told::Report(report)), cause),
+            None => self.says(),
+        };
+        if let Some(told) = told {
+            self.calm = false;
+            if self.level.tell(self.now, told, cause, &mut seen) {
+                self.run.told.push((self.run.rounds, told));
+                self.record_told(recording, told);
+            }
+        }
+        self.note_all(recording, &mut seen);
+        self.arrive(recording);
+        if let Some(monitor) = self.watching.look(self.now, self.level.player())
+            && self.run.violated.is_none()
+        {
+            let fired = self.last.1.clone();
+            self.run.violated = Some(Violation { at: self.now, monitor, fired });
+        }
+    }
+
+    /// Notes all that fired.
+    pub(super) fn note_all<R: Recorder>(
+        &mut self,
+        recording: &mut Recording<'_, R>,
+        seen: &mut Seen,
+    ) {
+        for (id, cause) in std::mem::take(&mut seen.fired) {
+            self.calm = false;
+            self.note(recording, id, cause);
+        }
+    }
+
+    /// Returns the word of the mission or the operator, if any.
+    pub(super) fn says(&mut self) -> (Option<Told>, Cause) {
+        let stands = self.drive.speed().0 == 0;
+        let none = (None, Cause(0));
+        match self.level.global() {
+            Global::Secures => (stands.then_some(Told::Stopped), Cause(0)),
+            Global::Safe => none,
+            Global::Waits => {
+                let Some(objective) = self.mission.objectives.get(self.objective) else {
+                    return none;
+                };
+                if objective.travels() {
+                    return (Some(Told::DriveWanted), Cause(0));
+                }
+                let activity = self.planning.activity(self.objective, self.drive.x().0);
+                if self.now.0 - self.objective_since.0 < self.planning.standing(activity).0 {
+                    return none;
+                }
+                self.advance();
+                self.says()
+            }
+            Global::Drives => (self.drive_says(), Cause(0)),
+        }
+    }
+
+    pub(super) fn drive_says(&mut self) -> Option<Told> {
+        let view = View {
+            place: self.place,
+            x: self.drive.x(),
+            lost: self.robot.lost(self.known),
+            link: self.link(),
+            at_goal: self.at_goal() && self.drive.speed().0 == 0,
+        };
+        if let Some(word) = self.operator.says(self.robot, self.now, view) {
+            return Some(word);
+        }
+        let Where::Runs { sub_objective, configuration } = self.place else { return None };
+        if mode(self.robot, self.place) != Some(Mode::Autonomous) {
+            return None;
+        }
+        let takes = self.robot.configurations.get(configuration).map_or(0, |it| it.takes.0);
+        let reached = if moves(self.robot, self.place) {
+            view.at_goal
+        } else {
+            self.now.0 - self.place_since.0 >= takes
+        };
+        reached.then_some(Told::Reached(sub_objective))
+    }
+
+    /// Whether the operator is reached.
+    pub(super) fn link(&self) -> bool {
+        let available = self.robot.available(self.failures.broken(self.robot));
+        self.robot.operator.is_some_and(|needs| needs & !available == 0)
+    }
+
+    /// The next objective.
+    pub(super) fn advance(&mut self) {
+        self.objective += 1;
+        self.objective_since = self.now;
+        self.calm = false;
+    }
+
+    /// Notes what fired.
+    pub(super) fn note<R: Recorder>(
+        &mut self,
+        recording: &mut Recording<'_, R>,
+        id: Of<TransitionId>,
+        cause: Cause,
+    ) {
+        let Some(fired) = self.level.fired(id) else { return };
+        let (net, asks) = (fired.net, fired.outputs.contains(&"op_request"));
+        if net == "faults" || net == "operator" {
+            return;
+        }
+        let name = format!("{net}.{}", fired.transition);
+        let (now, conduct) = (self.now, usize::from(cause.0).checked_sub(1));
+        let said = fired.outputs.first().copied().unwrap_or("");
+        let restart = fired.restarts;
+        let decision = match said {
+            "global_event" => Some(Decision::Stop),
+            "local_event" => Some(Decision::Ask),
+            _ if net == "cs" => Some(Decision::Adapt),
+            _ => None,
+        };
+        let ends = net == "gs" && fired.outputs.contains(&"halt");
+        let done = net == "gs" && fired.transition == "done";
+        self.record_fired(recording, id, cause);
+        if self.last.0 != now {
+            self.last = (now, Vec::new());
+        }
+        self.last.1.push(name.clone());
+        self.run.fired.insert(name);
+        let mut known = None;
+        if let Some(it) = conduct.and_then(|it| self.run.conduct.get_mut(it)) {
+            match net {
+                "cs" => {
+                    if let (Some(decision), None) = (decision, it.decided) {
+                        it.decided = Some((now, decision));
+                    }
+                }
+                "gom" if restart.is_none() => known = Some(it.taken_for.clone()),
+                "gom" | "permit" => {}
+                _ => {
+                    it.answered.get_or_insert(now);
+                }
+            }
+        }
+        if let (true, Some(decision), Some(at)) = (net == "cs", decision, conduct) {
+            self.record_decision(recording, at, decision, id);
+        }
+        // What a report takes is known when it was told, not when a module is started anew first.
+        for failure in known.into_iter().flatten() {
+            self.lose(failure, recording);
+        }
+        if let Some(module) = restart {
+            self.failures.restart(self.robot, module);
+        }
+        if asks {
+            self.run.operator_requests += 1;
+            self.record_request(recording, conduct);
+        }
+        if ends {
+            self.run.ended_by = conduct;
+        }
+        if done {
+            self.advance();
+        }
+    }
+
+    /// Notes where the supervisors have come to.
+    pub(super) fn arrive<R: Recorder>(&mut self, recording: &mut Recording<'_, R>) {
+        let place = self.level.place();
+        if place == self.place {
+            return;
+        }
+        self.calm = false;
+        let before = std::mem::replace(&mut self.place, place);
+        let of = |it: Where| match it {
+            Where::Runs { sub_objective, .. } => Some(sub_objective),
+            Where::Rests | Where::Waits => None,
+        };
+        if of(before) != of(place) || before == Where::Waits || place == Where::Waits {
+            self.place_since = self.now;
+        }
+        if place != Where::Rests && !self.first.iter().any(|it| it.0 == of(place)) {
+            self.first.push((of(place), self.now));
+        }
+        let helped = mode(self.robot, before) == Some(Mode::Operator) && of(before) != of(place);
+        if helped {
+            self.failures.is_helped(self.robot);
+        }
+        let runs = self.configuration();
+        self.run.configurations.push((self.now, runs));
+        self.record_configuration(recording);
+    }
+}
+
+/// The transitions that fired, with their cause.
+#[derive(Debug, Default)]
+struct Seen {
+    fired: Vec<(Of<TransitionId>, Cause)>,
+}
+
+impl<P: Names> Observer<P, Cause> for Seen {
+    fn on_fire(&mut self, firing: &Firing<'_, P, Cause>) {
+        self.fired.push((firing.id, firing.carries));
+    }
+}
