@@ -5,18 +5,18 @@
 //! behind the robot). Numbers are integers; durations are ms, energies mJ, powers mW, speeds mm/s.
 
 use crate::run::Outcome;
-use cotama_models::missions::MissionErrors;
-use cotama_models::robots::RobotFile;
 use serde::{Deserialize, Serialize};
 
 mod compare;
 mod read;
 mod replay;
+mod robot;
 pub mod supervised;
 
 pub use compare::Difference;
 pub use read::{Head, Limits, Line, TraceError, TraceOf};
 pub use replay::{RecordError, Replayed, replay};
+pub use robot::RobotText;
 
 /// The schema that a trace names in its header.
 pub const SCHEMA: &str = "cotama-trace/1";
@@ -79,30 +79,6 @@ pub struct Header {
     pub limits: Used,
     /// The length of the path, in mm.
     pub path_length_mm: u64,
-}
-
-/// The file of a robot.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct RobotText {
-    /// The name of the file.
-    pub source: String,
-    /// The whole text of the file.
-    pub text: String,
-}
-
-impl RobotText {
-    /// Returns the text of a robot's file.
-    pub fn of(file: &RobotFile) -> Self {
-        Self { source: file.source().into(), text: file.text().into() }
-    }
-
-    /// Reads the file.
-    ///
-    /// # Errors
-    /// All errors of its text.
-    pub fn file(&self) -> Result<RobotFile, MissionErrors> {
-        RobotFile::parse(&self.source, &self.text)
-    }
 }
 
 /// How a mission was run.

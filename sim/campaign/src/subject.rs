@@ -8,16 +8,19 @@ use crate::space::{Rates, Space};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Definition, Mission};
-use cotama_models::robots::{Moment, RobotFile};
-use cotama_models::team::scenario::{self, FaultKind, FaultTime, Scenario};
+use cotama_models::team::scenario::Scenario;
 use cotama_sim::fleet;
 use cotama_sim::options::{FaultChoice, Options, Planner, upward};
-use cotama_sim::robots::{self, Driven, Undriven};
+use cotama_sim::robots::{self, Driven};
 use cotama_sim::run::NoPlan;
-use cotama_sim::setup::{SetupError, Simulation};
-use cotama_sim::supervised::{Monitor, Script, Supervised, Unmonitored, Unsupervised};
-use std::fmt;
+use cotama_sim::setup::Simulation;
+use cotama_sim::supervised::{Monitor, Script, Supervised, Unmonitored};
 use std::ops::RangeInclusive;
+
+mod story;
+mod unready;
+
+pub use unready::Unready;
 
 /// A mission or a team made ready to be run many times with faults that are drawn.
 ///
@@ -118,56 +121,6 @@ impl Policy {
         }
     }
 }
-
-/// Why a mission cannot be the subject of a campaign.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Unready {
-    /// The mission cannot be set up.
-    Setup(SetupError),
-    /// The supervisors cannot be made.
-    Unsupervised(Unsupervised),
-    /// The supervisors of the robot's file cannot be played.
-    Undriven(Undriven),
-    /// The mission has no plan, even if nothing fails: the reason, and the same in words.
-    NoPlan(NoPlan, String),
-    /// The policy is for missions without supervisors.
-    Policy,
-    /// A requirement is no property that can be watched: its text, and why.
-    Property(String, Unmonitored),
-    /// A requirement is about supervisors, and the mission has none: its text.
-    Plain(String),
-    /// Supervisors that are shipped are to be held against themselves.
-    Shipped,
-}
-
-impl fmt::Display for Unready {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Setup(error) => error.fmt(f),
-            Self::Unsupervised(error) => error.fmt(f),
-            Self::Undriven(error) => error.fmt(f),
-            Self::NoPlan(_, why) => write!(
-                f,
-                "there is no plan even if nothing fails: {why}\n  help: `cotama plan MISSION` says \
-                 what weighs most, and what would help"
-            ),
-            Self::Policy => {
-                f.write_str("upward and rigid policies are for missions without supervisors")
-            }
-            Self::Property(text, why) => write!(f, "`{}`: {why}", text.escape_debug()),
-            Self::Shipped => {
-                f.write_str("`conforms` is for supervisors of your own: these are the shipped ones")
-            }
-            Self::Plain(text) => write!(
-                f,
-                "`{}` is about supervisors, and the mission has none",
-                text.escape_debug()
-            ),
-        }
-    }
-}
-
-impl std::error::Error for Unready {}
 
 impl<'m> Subject<'m> {
     /// Makes a mission ready.
@@ -389,50 +342,6 @@ impl<'m> Subject<'m> {
                 Some(Plan { faults: read.faults.into_iter().map(Fault::Team).collect() })
             }
         }
-    }
-
-    /// Returns a fault of a team in words.
-    pub(super) fn story_of(&self, fault: &scenario::Fault) -> String {
-        let Robot::Team(team, _) = &self.robot else { return String::new() };
-        let robot = |it: usize| team.robots.get(it).map_or("?", |it| it.name.as_str());
-        let task = |it: usize| team.tasks.get(it).map_or("?", |it| it.name.as_str());
-        let when = match fault.when {
-            FaultTime::At(at) => format!("at {}.{:03} s", at / 1_000, at % 1_000),
-            FaultTime::During { robot: it, task: of, stage, after_ms, .. } => format!(
-                "{after_ms} ms after {} came to `{}` of {}",
-                robot(it),
-                stage.name(),
-                task(of)
-            ),
-        };
-        match fault.what {
-            FaultKind::Robot(it, mode) => {
-                format!("{when}, {} fails: {}", robot(it), fleet::trace::Trace::words(mode))
-            }
-            FaultKind::Shifted(it) => format!("{when}, the object of {} is shifted", task(it)),
-            FaultKind::Turned(it, _) => format!("{when}, the object of {} is turned", task(it)),
-        }
-    }
-
-    /// Returns a failure of a robot's file in words.
-    pub(super) fn story_of_row(&self, it: &robots::Injection) -> String {
-        let robot = self.mission().and_then(|it| it.robot()).map(RobotFile::robot);
-        let row = robot.and_then(|robot| robot.failures.get(it.failure));
-        let what = row.map_or_else(String::new, |it| format!("{} fails: {}", it.id, it.mode));
-        let seconds = |it: Millis| format!("{}.{:03} s", it.0 / 1_000, it.0 % 1_000);
-        let when = match it.when {
-            Moment::Place(x) => format!("at {}.{} m", x.0 / 1_000, x.0 / 100 % 10),
-            Moment::At(time) => format!("at {}", seconds(time)),
-            Moment::During(part, after) => {
-                let of = robot.and_then(|robot| robot.sub_objectives.get(part));
-                let name = of.map_or("?", |it| it.name.as_str());
-                format!("{} after {name} first starts", seconds(after))
-            }
-            Moment::Waiting(after) => {
-                format!("{} after the operator is first asked", seconds(after))
-            }
-        };
-        format!("{when}, {what}")
     }
 
     /// Returns the signature of a plan, with the names of the mission.

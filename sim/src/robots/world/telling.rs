@@ -41,11 +41,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     }
 
     /// Notes all that fired.
-    pub(super) fn note_all<R: Recorder>(
-        &mut self,
-        recording: &mut Recording<'_, R>,
-        seen: &mut Seen,
-    ) {
+    fn note_all<R: Recorder>(&mut self, recording: &mut Recording<'_, R>, seen: &mut Seen) {
         for (id, cause) in std::mem::take(&mut seen.fired) {
             self.calm = false;
             self.note(recording, id, cause);
@@ -53,7 +49,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     }
 
     /// Returns the word of the mission or the operator, if any.
-    pub(super) fn says(&mut self) -> (Option<Told>, Cause) {
+    fn says(&mut self) -> (Option<Told>, Cause) {
         let stands = self.drive.speed().0 == 0;
         let none = (None, Cause(0));
         match self.level.global() {
@@ -77,7 +73,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         }
     }
 
-    pub(super) fn drive_says(&mut self) -> Option<Told> {
+    fn drive_says(&mut self) -> Option<Told> {
         let view = View {
             place: self.place,
             x: self.drive.x(),
@@ -102,20 +98,20 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     }
 
     /// Whether the operator is reached.
-    pub(super) fn link(&self) -> bool {
+    fn link(&self) -> bool {
         let available = self.robot.available(self.failures.broken(self.robot));
         self.robot.operator.is_some_and(|needs| needs & !available == 0)
     }
 
     /// The next objective.
-    pub(super) fn advance(&mut self) {
+    fn advance(&mut self) {
         self.objective += 1;
         self.objective_since = self.now;
         self.calm = false;
     }
 
     /// Notes what fired.
-    pub(super) fn note<R: Recorder>(
+    fn note<R: Recorder>(
         &mut self,
         recording: &mut Recording<'_, R>,
         id: Of<TransitionId>,
@@ -182,7 +178,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     }
 
     /// Notes where the supervisors have come to.
-    pub(super) fn arrive<R: Recorder>(&mut self, recording: &mut Recording<'_, R>) {
+    fn arrive<R: Recorder>(&mut self, recording: &mut Recording<'_, R>) {
         let place = self.level.place();
         if place == self.place {
             return;
