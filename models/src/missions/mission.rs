@@ -41,19 +41,17 @@
 use super::definition::Definition;
 use super::diagnostic::{Diagnostic, MissionErrors};
 use super::faults::Moment;
+use super::lowering;
 use super::reader::{self, Sink};
 use super::scenario::{Constraint, Scenario};
 use super::supervised;
-use super::under::{self, Under};
+use super::under::{FORMAT_2, Under};
 use crate::robots::{self, RobotFile};
 use cotama_core::net::owned::OwnedNet;
 use std::ops::Deref;
 
 /// The format that a mission file must name.
 pub const FORMAT: &str = "panorama-mission/1";
-
-/// The format of missions of a robot that has a file of its own.
-pub const FORMAT_2: &str = "panorama-mission/2";
 
 /// A mission: its file, and the [`Unfolded`] definition that the file says.
 ///
@@ -117,7 +115,7 @@ impl Mission {
 
     /// Returns the name of the robot that a file of [`FORMAT_2`] names.
     pub fn robot_of(text: &str) -> Option<String> {
-        under::named(text)
+        lowering::named(text)
     }
 
     /// Reads a mission file whose robot was read before: the one that a file of [`FORMAT_2`] names,
@@ -141,7 +139,7 @@ impl Mission {
         robot: Option<RobotFile>,
     ) -> Result<Self, MissionErrors> {
         let sink = Sink::default();
-        let definition = if under::is_second(text) {
+        let definition = if lowering::is_second(text) {
             let robot = robot.as_ref();
             reader::document(text, &sink, FORMAT_2, |root| reader::definition_of(root, robot))
         } else {

@@ -20,6 +20,8 @@ pub mod infeasible;
 #[cfg(feature = "std")]
 pub mod known;
 #[cfg(feature = "std")]
+mod lowering;
+#[cfg(feature = "std")]
 mod mission;
 #[cfg(feature = "std")]
 pub mod mission_net;
@@ -46,7 +48,7 @@ pub use definition::{
 #[cfg(feature = "std")]
 pub use diagnostic::{Diagnostic, MAX_DIAGNOSTICS, MissionErrors, Position, Spanned, told_with};
 #[cfg(feature = "std")]
-pub use mission::{FORMAT, FORMAT_2, Mission, Unfolded};
+pub use mission::{FORMAT, Mission, Unfolded};
 #[cfg(feature = "std")]
 pub use remaining::Remaining;
 #[cfg(feature = "std")]
@@ -59,4 +61,4 @@ pub use supervised::MAX_SUPERVISED_OBJECTIVES;
 #[cfg(feature = "std")]
 pub use terms::{MotionPower, PlannedFor, harmless_speed};
 #[cfg(feature = "std")]
-pub use under::Under;
+pub use under::{FORMAT_2, Under};
