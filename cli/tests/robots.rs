@@ -45,7 +45,7 @@ fn all_that_takes_a_model_takes_a_robot() {
     let played = folder.cotama(&["simulate", "cart.toml", "gs.drive_wanted"]);
     assert_eq!(played.code, Some(0), "{}", played.stderr);
     let listed = folder.cotama(&["list", "--json"]).json(0);
-    assert_eq!(listed["robots"][1]["name"], "transport");
+    assert_eq!(listed["robots"][2]["name"], "transport");
     let shown = folder.cotama(&["show", "transport"]).stdout;
     folder.write("again.toml", shown);
     let again = folder.cotama(&["models", "again.toml", "--json"]).json(0);

@@ -26,8 +26,7 @@ const MISSIONS: [Embedded; 3] = [
     },
     Embedded {
         name: "shift",
-        description: "a shift of the transport robot: to the rack, to the packing station, and \
-                      back, under the supervisors of its file",
+        description: "Shift of the transport robot, under the supervisors that its file makes",
         text: include_str!("../../missions/shift.toml"),
     },
 ];

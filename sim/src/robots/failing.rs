@@ -178,9 +178,10 @@ impl Failures {
         let times = self.open(robot).flat_map(|(it, row)| {
             let silent = matches!(row.motion, Motion::Silent | Motion::Mindless);
             let ends = row.ends.map(|time| it.since.0 + time.0);
-            [ends, silent.then_some(it.since.0 + FIRMWARE_WATCHDOG.0)]
+            let stops = it.since.0 + FIRMWARE_WATCHDOG.0;
+            [ends, (silent && stops > now.0).then_some(stops)]
         });
-        times.flatten().filter(|it| *it > now.0).min().map(Millis)
+        times.flatten().min().map(Millis)
     }
 }
 

@@ -11,18 +11,10 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     pub(super) fn travel(&mut self) {
         let before = self.drive.x();
         let permitted = self.level.permits();
-        let held = self.hindered.waits();
-        let speed = if permitted && !held { self.pace().0 } else { MillimetresPerSecond(0) };
-        if held {
+        let demand = self.demand();
+        if self.hindered.waits() {
             self.drive.stand();
         }
-        let demand = Demand {
-            speed,
-            most: self.body.speed_max,
-            halt: self.level.is_halted(),
-            end: Millimetres(self.goal().0 + self.hindered.owed().0),
-            led: mode(self.robot, self.place) == Some(Mode::Operator),
-        };
         self.failures.go(self.robot, self.now, &demand, &mut self.drive);
         let moved = self.drive.x() > before;
         self.hindered.take(&mut self.drive, before);
@@ -30,6 +22,18 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         self.energy_uj = self.energy_uj.saturating_add(power.0.saturating_mul(self.body.period.0));
         self.run.moved_when_safe |= moved && self.level.global() == Global::Safe;
         self.measure(before, permitted);
+    }
+
+    /// Returns what is demanded of the motors: the pace of what runs while it has a permit.
+    pub(super) fn demand(&self) -> Demand {
+        let goes = self.level.permits() && !self.hindered.waits();
+        Demand {
+            speed: if goes { self.pace().0 } else { MillimetresPerSecond(0) },
+            most: self.body.speed_max,
+            halt: self.level.is_halted(),
+            end: Millimetres(self.goal().0 + self.hindered.owed().0),
+            led: mode(self.robot, self.place) == Some(Mode::Operator),
+        }
     }
 
     /// Measures the conditions that must never hold, or not for long; the period began here.

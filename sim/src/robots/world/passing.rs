@@ -13,7 +13,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     pub(super) fn pass_over(&mut self) {
         let busy = !self.calm || !self.untold.is_empty() || self.level.player().round_is_due();
         let held = self.hindered.waits() || self.hindered.owed() > Millimetres(0);
-        if busy || held || !self.failures.thinks(self.robot) {
+        if busy || held || !self.failures.thinks(self.robot) || !self.is_steady() {
             return;
         }
         let until =
@@ -23,8 +23,9 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         most = self.watching.late_at().map_or(most, |it| most.min(until(it)));
         let changes = self.failures.changes(self.robot, self.now);
         most = changes.map_or(most, |it| most.min(until(it)));
-        let moments = self.waiting.iter().map(|it| it.when);
-        for it in moments.chain(self.until.iter().flatten().copied()) {
+        let ends = self.failures.all.iter().zip(&self.until).filter(|it| !it.0.over);
+        let ends = ends.filter_map(|it| *it.1);
+        for it in self.waiting.iter().map(|it| it.when).chain(ends) {
             most = most.min(self.periods_before(it));
         }
         let activities = &self.mission.scenario().activities;
@@ -65,6 +66,13 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         self.run.rounds += most;
     }
 
+    /// Whether the robot would go on at its speed for a period.
+    fn is_steady(&self) -> bool {
+        let mut next = self.drive.clone();
+        self.failures.go(self.robot, self.now, &self.demand(), &mut next);
+        next.speed() == self.drive.speed()
+    }
+
     /// The exposures of the last period go on for so many.
     pub(super) fn exposed_on(&mut self, periods: u64) {
         for _ in 0..if self.failures.all.is_empty() { 0 } else { periods } {
@@ -81,7 +89,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             first.map_or(u64::MAX, |it| until(it.1.0 + after.0))
         };
         if self.is_due(when) {
-            return u64::MAX; // it has come
+            return 0;
         }
         match when {
             Moment::Place(x) => self.drive.times_before(x, self.body.period).unwrap_or(0),

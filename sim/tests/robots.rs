@@ -1,0 +1,136 @@
+//! Missions of robots from files: under the supervisors that were checked.
+#![allow(clippy::unwrap_used)]
+
+use cotama_core::units::{Millimetres, Millis};
+use cotama_models::missions::{Mission, embedded};
+use cotama_models::robots::{Decision, Moment, RobotFile};
+use cotama_sim::options::{FaultChoice, Options};
+use cotama_sim::robots::{Driven, Injection, Run, Script};
+use cotama_sim::run::Outcome;
+use cotama_sim::trace::{Record, Trace, replay};
+use proptest::prelude::*;
+use std::sync::LazyLock;
+
+static SHIFT: LazyLock<Mission> = LazyLock::new(|| {
+    let shift = embedded::mission("shift").unwrap();
+    Mission::parse(shift.name, shift.text).unwrap()
+});
+
+static PATROL: LazyLock<Mission> = LazyLock::new(|| {
+    let patrol = embedded::mission("patrol").unwrap();
+    let robot = RobotFile::shipped("p3dx-patrol");
+    Mission::parse_under(patrol.name, patrol.text, robot).unwrap()
+});
+
+/// The number of a failure of a mission's robot.
+fn row(mission: &Mission, id: &str) -> usize {
+    let robot = mission.robot().unwrap().robot();
+    robot.failures.iter().position(|it| it.id == id).unwrap()
+}
+
+fn failing(mission: &Mission, id: &str, x_mm: u64) -> Run {
+    let when = Moment::Place(Millimetres(x_mm));
+    let injections = vec![Injection { when, failure: row(mission, id), until: None }];
+    let script = Script { injections, ..Script::default() };
+    Driven::new(mission).unwrap().run(&script).unwrap()
+}
+
+#[test]
+fn a_shift_goes_on_slower_asks_twice_and_is_completed() {
+    let script = Script::of(&SHIFT.run.faults, &SHIFT);
+    let run = Driven::new(&SHIFT).unwrap().run(&script).unwrap();
+    assert_eq!((run.outcome, run.operator_requests, run.plans.len()), (Outcome::Completed, 2, 2));
+    let decided: Vec<_> = run.conduct.iter().map(|it| it.decided.unwrap().1).collect();
+    assert_eq!(decided, [Decision::Adapt, Decision::Ask, Decision::Ask]);
+    let names = |it: &Option<usize>| {
+        it.map(|it| SHIFT.robot().unwrap().robot().configurations[it].name.as_str())
+    };
+    let ran: Vec<_> = run.configurations.iter().filter_map(|it| names(&it.1)).collect();
+    assert_eq!(ran[..4], ["Plan.Full", "Follow.Full", "Follow.Low", "Handle.Full"]);
+    assert_eq!(ran[ran.len() - 1], "Manual.Guarded");
+}
+
+#[test]
+fn a_fatal_failure_ends_the_shift_and_the_robot_stands() {
+    let run = failing(&SHIFT, "DRV1", 20_000);
+    let id = run.ended_by.map(|it| run.conduct[it].failure);
+    assert_eq!((run.outcome, id), (Outcome::Safe, Some(row(&SHIFT, "DRV1"))));
+    assert_eq!(
+        run.summary(&SHIFT).reason.unwrap().text(&SHIFT),
+        "the global supervisor ended the mission: drive reports an error (DRV1)"
+    );
+}
+
+#[test]
+fn a_laser_found_lost_gives_the_four_plans_of_table_7() {
+    let plans = |mission: &Mission| {
+        let (trace, run) = Trace::record(mission, &Options::default()).unwrap();
+        let plans = trace.records.iter().filter_map(|it| match it {
+            Record::Plan(it) => Some(it.plan.iter().map(|it| it.choice.clone()).collect()),
+            _ => None,
+        });
+        (plans.collect::<Vec<Vec<_>>>(), run.outcome)
+    };
+    let patrol = embedded::mission("patrol").unwrap();
+    let told = plans(&Mission::parse(patrol.name, patrol.text).unwrap());
+    let found = plans(&PATROL);
+    assert_eq!((found.1, found.0.len()), (Outcome::Completed, 4));
+    assert_eq!(found.0, told.0);
+    // 118 m, and a latency of 0.3 s.
+    let run = failing(&PATROL, "LAS1", 118_000);
+    let lost = &run.conduct[0];
+    assert_eq!((lost.x.0 / 100, lost.detected.unwrap().0 - lost.injected.0), (1_180, 290));
+}
+
+#[test]
+fn a_lost_localisation_algorithm_is_planned_around_as_well() {
+    let run = failing(&PATROL, "LOC2", 118_000);
+    assert_eq!((run.outcome, run.plans.len()), (Outcome::Completed, 2));
+    let plan = &run.plans[1];
+    assert_eq!(plan.cause.text(&PATROL), "the pose by codes is astray (LOC2)");
+    let rows = plan.rows(&PATROL);
+    assert!(rows.iter().all(|it| !it.choice.contains("L2")), "{rows:?}");
+}
+
+#[test]
+fn a_recorded_shift_is_run_again_from_its_trace_alone() {
+    let (trace, _) = Trace::record(&SHIFT, &Options::default()).unwrap();
+    let read = Trace::parse("shift.jsonl", &trace.to_json_lines()).unwrap();
+    assert!(replay(&read).unwrap().identical);
+    assert_eq!(read.header.robot.unwrap().source, "transport");
+}
+
+#[test]
+fn nothing_fails_and_nobody_is_asked() {
+    for mission in [&*SHIFT, &*PATROL] {
+        let options = Options { faults: FaultChoice::None, ..Options::default() };
+        let run = Trace::record(mission, &options).unwrap().1;
+        assert_eq!((run.outcome, run.operator_requests), (Outcome::Completed, 0));
+    }
+}
+
+fn script() -> impl Strategy<Value = Script> {
+    let failures = SHIFT.robot().unwrap().robot().failures.len();
+    let when = prop_oneof![
+        (0..180_000u64).prop_map(|it| Moment::Place(Millimetres(it))),
+        (0..400_000u64).prop_map(|it| Moment::At(Millis(it))),
+        (0..5usize, 0..20_000u64).prop_map(|(part, it)| Moment::During(part, Millis(it))),
+        (0..20_000u64).prop_map(|it| Moment::Waiting(Millis(it))),
+    ];
+    let one = (when.clone(), 0..failures, prop::option::of(when))
+        .prop_map(|(when, failure, until)| Injection { when, failure, until });
+    let all = prop::collection::vec(one, 0..4);
+    all.prop_map(|injections| Script { injections, ..Script::default() })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn quiet_periods_that_are_passed_over_change_nothing(script in script()) {
+        let ready = Driven::new(&SHIFT).unwrap();
+        let mut records: Vec<Record> = Vec::new();
+        let step_by_step = ready.run_recorded(&script, Millis(1_000), &mut records).unwrap();
+        prop_assert_eq!(ready.run(&script).unwrap(), step_by_step);
+    }
+}
