@@ -23,7 +23,7 @@ use crate::output::{self, Screen};
 use crate::progress::Progress;
 use crate::render::style::NAME;
 use crate::render::{self, visible};
-use crate::subject::Subject;
+use crate::subject::{Subject, Unmade};
 use cotama_verification::certificate::Evidence;
 use cotama_verification::check::{Answer, Checker, Choice, Extent, Options, Reason, Verdict};
 use cotama_verification::diagnosis::Diagnosis;
@@ -59,7 +59,11 @@ fn once(args: &CheckArgs, screen: &Screen, last_word: &LastWord) -> Result<Exit,
     if let Some(too_large) = limit::of(args)? {
         return limit::told(args, &too_large, screen);
     }
-    let subject = Subject::load(&args.model, args.untimed, args.semantics)?;
+    let subject = match Subject::load(&args.model, args.untimed, args.semantics) {
+        Ok(subject) => subject,
+        Err(Unmade::Failure(failure)) => return Err(failure),
+        Err(Unmade::TooLarge(it)) => return limit::told(args, &(*it).into(), screen),
+    };
     let asked = questions::asked(args, &subject)?;
     if let Some(it) = asked
         .properties

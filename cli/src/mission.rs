@@ -62,7 +62,7 @@ fn robot_for(mission: &str) -> Result<&'static str, Failure> {
 }
 
 /// The robot of this name, or of the file at this path, which may be relative to a folder.
-fn robot(name: &str, folder: Option<&Path>) -> Result<RobotFile, Failure> {
+pub(crate) fn robot(name: &str, folder: Option<&Path>) -> Result<RobotFile, Failure> {
     if let Some(it) = RobotFile::shipped(name) {
         return Ok(it);
     }

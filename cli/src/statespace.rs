@@ -8,7 +8,7 @@ use crate::exit::{Exit, Failure};
 use crate::output::Screen;
 use crate::progress::Progress;
 use crate::render;
-use crate::subject::Subject;
+use crate::subject::{Subject, TooLarge, Unmade};
 use cotama_core::net::TransitionId;
 use cotama_verification::check::Model;
 use cotama_verification::coverability::{self, Bounded};
@@ -20,7 +20,11 @@ use std::time::Instant;
 
 /// Counts what is reachable.
 pub(crate) fn statespace(args: &StatespaceArgs, screen: &Screen) -> Result<Exit, Failure> {
-    let mut subject = Subject::load(&args.model, args.untimed, args.semantics)?;
+    let mut subject = match Subject::load(&args.model, args.untimed, args.semantics) {
+        Ok(subject) => subject,
+        Err(Unmade::Failure(failure)) => return Err(failure),
+        Err(Unmade::TooLarge(it)) => return said(args, &too_large(&args.model, *it), 1, screen),
+    };
     let (budget, progress, begun) = (Budget::start(args.budget), Progress::new(), Instant::now());
     let found = match &subject.model {
         Model::Plain(pt) => markings(pt, &budget, &progress),
@@ -40,16 +44,56 @@ pub(crate) fn statespace(args: &StatespaceArgs, screen: &Screen) -> Result<Exit,
         seconds: begun.elapsed().as_secs_f64(),
         ..found
     };
+    said(args, &answer, budget.jobs, screen)
+}
+
+fn said(
+    args: &StatespaceArgs,
+    answer: &StatespaceAnswer,
+    jobs: usize,
+    screen: &Screen,
+) -> Result<Exit, Failure> {
     if args.json.json {
         Screen::json(&answer)?;
     } else if args.mcc {
-        Screen::raw(lines(&answer, budget.jobs).as_bytes())?;
+        Screen::raw(lines(answer, jobs).as_bytes())?;
     } else {
-        screen.print(&render::statespace::screen(&answer, screen.width()))?;
+        screen.print(&render::statespace::screen(answer, screen.width()))?;
     }
     // Unboundedness of a net is an answer.
     let is_known = answer.limit.is_none() || answer.bounded == Some(false);
     Ok(if is_known { Exit::Success } else { Exit::Unknown })
+}
+
+/// Nothing is known of a system that is too large to be one net.
+fn too_large(model: &str, it: TooLarge) -> StatespaceAnswer {
+    let none = "0".to_owned();
+    StatespaceAnswer {
+        schema: "cotama/statespace/1",
+        model: model.to_owned(),
+        timed: false,
+        semantics: it.semantics,
+        notes: Vec::new(),
+        states: None,
+        arcs: None,
+        max_place: None,
+        max_sum: None,
+        deadlocks: None,
+        safe: None,
+        bounded: None,
+        dead_transitions: None,
+        dead_places: None,
+        markings: None,
+        classes: None,
+        edges: None,
+        rounds: None,
+        growth: None,
+        explored: ExploredRow { states: none.clone(), arcs: none },
+        limit: Some(it.why),
+        engine: "none",
+        seconds: 0.0,
+        bytes_per_state: None,
+    }
 }
 
 /// How large the net is for who does not know its priorities, if that is soon counted.

@@ -35,6 +35,41 @@ pub(crate) struct Subject {
     transition_ids: Vec<String>,
 }
 
+/// Why there is no subject.
+#[derive(Debug)]
+pub(crate) enum Unmade {
+    Failure(Failure),
+    /// A limit that is an answer.
+    TooLarge(Box<TooLarge>),
+}
+
+/// A system that is too large to be one net.
+#[derive(Debug)]
+pub(crate) struct TooLarge {
+    /// The limit that it passes, in words.
+    pub(crate) why: String,
+    /// Meaning that was wanted.
+    pub(crate) semantics: Option<Semantics>,
+    /// Requirements that nothing is known of.
+    pub(crate) required: Vec<RobotRequirement>,
+}
+
+impl From<Failure> for Unmade {
+    fn from(failure: Failure) -> Self {
+        Self::Failure(failure)
+    }
+}
+
+/// For commands to which a limit is no answer.
+impl From<Unmade> for Failure {
+    fn from(unmade: Unmade) -> Self {
+        match unmade {
+            Unmade::Failure(failure) => failure,
+            Unmade::TooLarge(it) => Self::new(it.why),
+        }
+    }
+}
+
 impl Subject {
     /// The model of this name, or of the file at this path; without its intervals where that is
     /// wanted.
@@ -42,23 +77,29 @@ impl Subject {
         name: &str,
         untimed: bool,
         semantics: Option<Semantics>,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Unmade> {
         let loaded = Self::found(name, untimed, semantics.unwrap_or(Semantics::Rounds))?;
         if semantics == Some(Semantics::Rounds) && loaded.semantics.is_none() {
             return Err(Failure::new(format!(
                 "`{name}` is one net: rounds are those of several that work together"
             ))
-            .help("leave --semantics out"));
+            .help("leave --semantics out")
+            .into());
         }
         Ok(loaded)
     }
 
-    fn found(name: &str, untimed: bool, semantics: Semantics) -> Result<Self, Failure> {
+    fn found(name: &str, untimed: bool, semantics: Semantics) -> Result<Self, Unmade> {
         let loaded = match model::find(name)? {
             Found::System(system) => return Self::of_system(name, system, semantics),
             Found::Robot(it) => {
-                let subject = it.system.with(|system| Self::of_system(name, system, semantics))?;
-                return Ok(Self { required: it.requirements, ..subject });
+                return match it.system.with(|system| Self::of_system(name, system, semantics)) {
+                    Ok(subject) => Ok(Self { required: it.requirements, ..subject }),
+                    Err(Unmade::TooLarge(large)) => Err(Unmade::TooLarge(
+                        TooLarge { required: it.requirements, ..*large }.into(),
+                    )),
+                    Err(refused) => Err(refused),
+                };
             }
             Found::Time(net) => {
                 let plain = untimed || model::is_untimed(&net);
@@ -69,7 +110,7 @@ impl Subject {
         };
         let is_random = loaded.random.is_some();
         if let Some(random) = loaded.random.filter(|_| !untimed) {
-            return Err(random.into());
+            return Err(Failure::from(random).into());
         }
         let extras = loaded.extras;
         let view = loaded.net.view();
@@ -78,7 +119,8 @@ impl Subject {
             if timed && !untimed {
                 let message = format!("its intervals of time and its {}", extras.named());
                 return Err(Failure::of(name, format!("{message} are not checked together"))
-                    .help("--untimed leaves the intervals out"));
+                    .help("--untimed leaves the intervals out")
+                    .into());
             }
             Model::Plain(Pt::extended(&view.net(), &extras))
         } else if untimed {
@@ -109,9 +151,15 @@ impl Subject {
         Ok(if timed && untimed { subject.noted("intervals of time are left out") } else { subject })
     }
 
-    fn of_system(name: &str, system: &System<'_>, semantics: Semantics) -> Result<Self, Failure> {
-        let refused =
-            |error| Failure::new(format!("`{name}` cannot be checked as one net: {error}"));
+    fn of_system(name: &str, system: &System<'_>, semantics: Semantics) -> Result<Self, Unmade> {
+        let refused = |error| {
+            let why = format!("`{name}` cannot be checked as one net: {error}");
+            if matches!(error, FlatError::TooMany | FlatError::TooMuch) {
+                let (semantics, required) = (Some(semantics), Vec::new());
+                return Unmade::TooLarge(TooLarge { why, semantics, required }.into());
+            }
+            Unmade::Failure(Failure::new(why))
+        };
         let (net, rounds, note) = if semantics == Semantics::Rounds {
             let rounds = flat::rounds(system).map_err(refused)?;
             let note = "nets of a system act in rounds, as they are executed";

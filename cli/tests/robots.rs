@@ -87,3 +87,49 @@ fn commands_of_missions_say_that_a_robot_is_none() {
         assert!(refused.stderr.contains(is) && refused.stderr.contains(next), "{}", refused.stderr);
     }
 }
+
+/// The file of a robot with so many kinds of hardware that may be lost, and a configuration for each
+/// of them in each of three sub-objectives.
+fn large(losses: usize) -> String {
+    let mut text = "format = \"cotama-robot/1\"\nname = \"large\"\n\
+        [hardware.base]\n[module.drive]\nhardware = [\"base\"]\n\
+        [operator]\nneeds = [\"drive\"]\n[[configuration]]\nname = \"ByHand\"\n\
+        sub_objective = \"Hand\"\nmode = \"operator\"\nrequired = [\"drive\"]\nspeed_mm_s = 100\n"
+        .to_owned();
+    let flags: Vec<_> = (0..losses).map(|it| format!("\"f{it}\"")).collect();
+    text += &format!("[observer.eye]\nflags = [{}]\n", flags.join(", "));
+    for at in 0..losses {
+        text += &format!(
+            "[hardware.h{at}]\n[module.m{at}]\nhardware = [\"h{at}\"]\n\
+             [[failure]]\nid = \"F{at}\"\nmode = \"lost\"\n\
+             severity = {{ autonomous = \"medium\", operator = \"weak\" }}\n\
+             flags = [\"f{at}\"]\nloses = [\"h{at}\"]\n"
+        );
+        for part in 0..3 {
+            text += &format!(
+                "[[configuration]]\nname = \"S{part}.C{at}\"\nsub_objective = \"S{part}\"\n\
+                 mode = \"autonomous\"\nrequired = [\"drive\", \"m{at}\"]\nspeed_mm_s = 500\n"
+            );
+        }
+    }
+    text
+}
+
+#[test]
+fn a_robot_too_large_for_one_net_is_unknown_in_little_memory() {
+    let folder = Folder::new("robots_large");
+    folder.write("large.toml", large(8));
+    for line in ["check large.toml", "check large.toml --semantics interleaving"] {
+        let ended = folder.shell(&format!("ulimit -v {}; cotama {line} --json", 300_000));
+        assert_eq!(ended.code, Some(3), "{line}: {}", ended.stderr);
+        let answer: serde_json::Value = serde_json::from_str(&ended.stdout).unwrap();
+        let results = answer["results"].as_array().unwrap();
+        assert_eq!((results.len(), &results[0]["id"]), (59, &json!("GS1")), "{line}");
+        assert!(results.iter().all(|it| it["verdict"] == "unknown"), "{line}");
+    }
+    let asked = folder.cotama(&["check", "large.toml", "--property", "AG !hand.ByHand"]);
+    assert_eq!(asked.code, Some(3), "{}", asked.stderr);
+    assert!(asked.stdout.contains("more than 100000 transitions"), "{}", asked.stdout);
+    let counted = folder.cotama(&["statespace", "large.toml", "--json"]).json(3);
+    assert!(counted["limit"].as_str().unwrap().contains("more than 100000 transitions"));
+}

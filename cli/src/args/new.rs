@@ -6,7 +6,8 @@ use std::path::PathBuf;
 
 pub(crate) const NEW_EXAMPLES: &str = "\
 What is written:
-  mission  NAME.toml, with every section explained; `plan` and `run` take it as it is
+  mission  NAME.toml, with every section explained; `plan` and `run` take it as it is; with \
+--robot, a mission of that robot under its supervisors
   robot    NAME.toml, a robot with all that can fail on it, of which its supervisors are made; \
 `check`, `statespace`, `simulate` and `export` take it as it is
   fmeca    NAME.toml, failure modes of a small robot with every key; `fmeca` takes it as it is
@@ -19,6 +20,7 @@ on a microcontroller, in an emulator first
 Examples:
   $ cotama new mission hall && cotama plan hall.toml && cotama run hall.toml
   $ cotama new robot cart && cotama check cart.toml
+  $ cotama new mission round --robot cart.toml && cotama run round.toml
   $ cotama new fmeca arm && cotama fmeca arm.toml --diagnosability
   $ cotama new net gripper         # then: cd gripper && cargo test
   $ cotama new net hand && cotama new board hand
@@ -52,6 +54,9 @@ pub(crate) struct NewArgs {
     /// crate, or the sources in which the crate stands]
     #[arg(long, value_name = "DIR")]
     pub(crate) sources: Option<PathBuf>,
+    /// The robot of a mission, by name or as a file: its supervisors decide
+    #[arg(long)]
+    pub(crate) robot: Option<String>,
     #[command(flatten)]
     pub(crate) json: Json,
 }

@@ -28,18 +28,104 @@ impl Sum {
 pub(super) struct Known {
     bounds: Vec<i64>,
     sums: Vec<Sum>,
+    /// The sums that count a place, by place.
+    counted: Vec<Vec<usize>>,
+    /// The range of tokens of each place that follows from bounds and sums alone.
+    ranges: Vec<(i64, i64)>,
 }
 
 impl Known {
     pub(super) fn new(bounds: impl Iterator<Item = u32>, sums: Vec<Sum>) -> Self {
-        let mut known = Self { bounds: Vec::new(), sums };
+        let mut known = Self { sums, ..Self::default() };
         bounds.for_each(|it| known.add(it));
-        known
+        for (at, sum) in known.sums.iter().enumerate() {
+            for (place, _) in &sum.weights {
+                if let Some(it) = known.counted.get_mut(place.0 as usize) {
+                    it.push(at);
+                }
+            }
+        }
+        let mut ranges = std::mem::take(&mut known.ranges);
+        known.follow(&mut ranges, (0..known.sums.len()).collect());
+        Self { ranges, ..known }
     }
 
     /// A further place.
     pub(super) fn add(&mut self, bound: u32) {
         self.bounds.push(if bound == Place::UNBOUNDED { NO_BOUND } else { i64::from(bound) });
+        self.counted.push(Vec::new());
+        self.ranges.push((0, self.bounds.last().copied().unwrap_or(NO_BOUND)));
+    }
+
+    /// Narrows the ranges by what is held of a place, and by what follows from that.
+    fn narrow(&self, ranges: &mut [(i64, i64)], place: PlaceId, (low, high): (i64, i64)) {
+        let at = place.0 as usize;
+        let Some(range) = ranges.get_mut(at) else { return };
+        *range = (range.0.max(low), range.1.min(high));
+        self.follow(ranges, self.counted[at].clone());
+    }
+
+    /// Narrows the ranges as far as these sums imply it, and those that count what they narrow; a
+    /// contradiction is not followed to its end.
+    fn follow(&self, ranges: &mut [(i64, i64)], mut sums: Vec<usize>) {
+        while let Some(at) = sums.pop() {
+            let sum = &self.sums[at];
+            let weighed = |ranges: &[(i64, i64)], it: &(PlaceId, i64)| {
+                let (low, high) = ranges[it.0.0 as usize];
+                (it.1 * low, it.1 * high.min(sum.total))
+            };
+            let all = sum.weights.iter().map(|it| weighed(ranges, it));
+            let (least, most) = all.fold((0, 0), |sum, it| (sum.0 + it.0, sum.1 + it.1));
+            for it in &sum.weights {
+                let (place, weight) = (it.0.0 as usize, it.1);
+                let (own, (low, high)) = (weighed(ranges, it), ranges[place]);
+                let new = (
+                    low.max((sum.total - (most - own.1) + weight - 1).div_euclid(weight)),
+                    high.min((sum.total - (least - own.0)).div_euclid(weight)),
+                );
+                if new.0 > new.1 {
+                    return;
+                }
+                if new != (low, high) {
+                    ranges[place] = new;
+                    for &again in &self.counted[place] {
+                        if !sums.contains(&again) {
+                            sums.push(again);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Returns the range of tokens of each place where these tokens are held.
+    fn spread(&self, held: &Held) -> Vec<(i64, i64)> {
+        let mut ranges = self.ranges.clone();
+        held.iter().for_each(|(&place, &range)| self.narrow(&mut ranges, place, range));
+        ranges
+    }
+
+    /// Returns the results of tests, without those that follow from the others.
+    pub(super) fn essential(&self, tests: &Held) -> Held {
+        let mut held = tests.clone();
+        for (&place, &(low, high)) in tests {
+            let (at, bound) = (place.0 as usize, self.bound(place));
+            if high < bound {
+                held.insert(place, (low, bound));
+                if self.spread(&held)[at].1 > high {
+                    held.insert(place, (low, high));
+                }
+            }
+            let high = held.get(&place).map_or(high, |it| it.1);
+            if low > 0 {
+                held.insert(place, (0, high));
+                if self.spread(&held)[at].0 < low {
+                    held.insert(place, (low, high));
+                }
+            }
+        }
+        held.retain(|&place, it| *it != (0, self.bound(place)));
+        held
     }
 
     pub(super) fn bound(&self, place: PlaceId) -> i64 {
@@ -65,7 +151,7 @@ pub(super) struct Branch<'k> {
 
 impl<'k> Branch<'k> {
     pub(super) fn new(known: &'k Known, held: Held) -> Self {
-        let ranges = spread(known, &held);
+        let ranges = known.spread(&held);
         Self { known, held, ranges, change: BTreeMap::new(), script: Vec::new(), next: 0 }
     }
 
@@ -91,7 +177,8 @@ impl<'k> Branch<'k> {
         } else {
             held.1 = least - 1;
         }
-        self.ranges = spread(self.known, &self.held);
+        let range = *held;
+        self.known.narrow(&mut self.ranges, place, range);
         found
     }
 
@@ -105,95 +192,36 @@ impl<'k> Branch<'k> {
     fn at_start(&self, place: PlaceId) -> (i64, i64) {
         self.ranges.get(place.0 as usize).copied().unwrap_or((0, NO_BOUND))
     }
-
-    /// Returns the results of the tests, without those that follow from the others.
-    pub(super) fn essential(&self) -> Held {
-        let mut held = self.held.clone();
-        for &place in self.held.keys() {
-            let bound = self.known.bound(place);
-            for side in
-                [|it: &mut (i64, i64), bound| it.1 = bound, |it: &mut (i64, i64), _| it.0 = 0]
-            {
-                let mut fewer = held.clone();
-                fewer.entry(place).and_modify(|it| side(it, bound));
-                if spread(self.known, &fewer) == spread(self.known, &held) {
-                    held = fewer;
-                }
-            }
-        }
-        held.retain(|&place, it| *it != (0, self.known.bound(place)));
-        held
-    }
 }
 
-/// Returns the range of tokens of each place where these tokens are held, as far as bounds and sums
-/// imply it; a contradiction is not followed to its end.
-fn spread(known: &Known, held: &Held) -> Vec<(i64, i64)> {
-    let mut ranges: Vec<(i64, i64)> = known.bounds.iter().map(|&bound| (0, bound)).collect();
-    for (place, &range) in held {
-        if let Some(it) = ranges.get_mut(place.0 as usize) {
-            *it = range;
-        }
-    }
-    let mut goes_on = true;
-    while goes_on {
-        goes_on = false;
-        for sum in &known.sums {
-            let weighed = |it: &(PlaceId, i64)| {
-                let (low, high) = ranges[it.0.0 as usize];
-                (it.1 * low, it.1 * high.min(sum.total))
-            };
-            let (least, most) = sum
-                .weights
-                .iter()
-                .map(weighed)
-                .fold((0, 0), |sum, it| (sum.0 + it.0, sum.1 + it.1));
-            let before: Vec<_> = sum.weights.iter().map(weighed).collect();
-            for (&(place, weight), own) in sum.weights.iter().zip(before) {
-                let (low, high) = ranges[place.0 as usize];
-                let (least, most) = (least - own.0, most - own.1);
-                let new = (
-                    low.max((sum.total - most + weight - 1).div_euclid(weight)),
-                    high.min((sum.total - least).div_euclid(weight)),
-                );
-                if new.0 > new.1 {
-                    return ranges;
-                }
-                goes_on |= new != (low, high);
-                ranges[place.0 as usize] = new;
-            }
-        }
-    }
-    ranges
-}
-
-/// Every path through a step that starts where these tokens are held: no marking takes two of them,
-/// and each takes one.
+/// Hands on every path through a step that starts where these tokens are held, one after the other:
+/// no marking takes two of them, and each takes one. None is kept.
 ///
 /// # Errors
-/// The errors of the step; and more than [`MOST_TRANSITIONS`] paths.
+/// The errors of the step and of the taker; and more than [`MOST_TRANSITIONS`] paths.
 pub(super) fn branches<'k, T>(
     known: &'k Known,
     held: &Held,
     mut step: impl FnMut(&mut Branch<'k>) -> Result<T, FlatError>,
-) -> Result<Vec<(Branch<'k>, T)>, FlatError> {
-    let (mut ways, mut script) = (Vec::new(), Vec::new());
+    mut take: impl FnMut(&Branch<'k>, T) -> Result<(), FlatError>,
+) -> Result<(), FlatError> {
+    let (mut count, mut script) = (0, Vec::new());
     loop {
         let mut branch = Branch { script, ..Branch::new(known, held.clone()) };
         let found = step(&mut branch)?;
-        let mut next = branch.script.clone();
-        ways.push((branch, found));
-        if ways.len() > MOST_TRANSITIONS {
+        count += 1;
+        if count > MOST_TRANSITIONS {
             return Err(FlatError::TooMany);
         }
+        take(&branch, found)?;
         // The next path turns at the last test that turned out well.
-        while next.last() == Some(&false) {
-            next.pop();
+        script = branch.script;
+        while script.last() == Some(&false) {
+            script.pop();
         }
-        match next.last_mut() {
+        match script.last_mut() {
             Some(last) => *last = false,
-            None => return Ok(ways),
+            None => return Ok(()),
         }
-        script = next;
     }
 }

@@ -19,6 +19,8 @@ pub enum FlatError {
     },
     /// The net would have more than [`MOST_TRANSITIONS`] transitions.
     TooMany,
+    /// Conditions under which events are ignored are too many to compare; of interleavings alone.
+    TooMuch,
     /// A net of a system whose rounds are asked for is not sound.
     Net {
         /// Name of the net in the system.
@@ -73,6 +75,10 @@ impl fmt::Display for FlatError {
             Self::TooMany => {
                 write!(f, "as one net it has more than {MOST_TRANSITIONS} transitions")
             }
+            Self::TooMuch => write!(
+                f,
+                "events are ignored in too many ways: check the rounds, which tell fewer apart"
+            ),
             Self::Net { net, defect } => write!(f, "the net {net} is not sound: {defect:?}"),
             Self::Interval { transition } => {
                 write!(

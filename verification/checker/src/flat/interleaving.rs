@@ -7,6 +7,9 @@ use cotama_core::net::{EventId, Net, OutputId, PlaceId, Role, Transition};
 use cotama_core::system::{Delivery, Of, System};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// The most comparisons of conditions under which events are ignored: some seconds.
+const MOST_COMPARED: usize = 10_000_000;
+
 pub(super) struct Flat<'s> {
     pub(super) system: &'s System<'s>,
     pub(super) net: OwnedNet,
@@ -19,6 +22,8 @@ pub(super) struct Flat<'s> {
     /// The place of waiting events and that of the room, with the capacity, by component and event.
     pub(super) mailboxes: BTreeMap<(u16, u32), (PlaceId, PlaceId, u16)>,
     pub(super) wanted: BTreeSet<PlaceId>,
+    /// The conditions compared so far.
+    compared: usize,
 }
 
 impl<'s> Flat<'s> {
@@ -32,6 +37,7 @@ impl<'s> Flat<'s> {
             made: Vec::new(),
             mailboxes: BTreeMap::new(),
             wanted: BTreeSet::new(),
+            compared: 0,
         };
         flat.add_places();
         for place in wanted {
@@ -239,6 +245,10 @@ impl<'s> Flat<'s> {
             let mut next: Vec<BTreeMap<PlaceId, i64>> = Vec::new();
             for before in &unmet {
                 for &(absent, least) in &lacks {
+                    self.compared += next.len();
+                    if self.compared > MOST_COMPARED {
+                        return Err(FlatError::TooMuch);
+                    }
                     let mut both = before.clone();
                     let held = both.entry(absent).or_default();
                     *held = (*held).max(least);
@@ -247,9 +257,6 @@ impl<'s> Flat<'s> {
                         next.push(both);
                     }
                 }
-            }
-            if next.len() > MOST_TRANSITIONS {
-                return Err(FlatError::TooMany);
             }
             unmet = next;
         }

@@ -88,16 +88,17 @@ impl Rounds {
         for from in 0..=observer.most {
             let tokens = i64::from(from);
             let held = Held::from([(place, (tokens, tokens))]);
-            let ways = branches(&known, &held, |branch| {
+            let step = |branch: &mut Branch<'_>| {
                 let mut steps = observer.steps.iter().filter(|it| it.0 == from);
                 let next = steps.find(|it| holds(branch, &it.1)).map_or(from, |it| it.2);
                 branch.add(place, i64::from(next) - tokens);
                 Ok(next)
-            });
-            for (branch, next) in ways? {
+            };
+            branches(&known, &held, step, |branch, next| {
                 let name = format!("{}: {next}", observer.name);
-                self.push(Path::new(Part::Between, name, looks, then, &branch))?;
-            }
+                let path = Path::new(Part::Between, name, looks, then, branch);
+                self.push(Path { held: known.essential(&path.held), ..path })
+            })?;
         }
         self.watches.push(Seen { observer: observer.clone(), looks, counts: place, then });
         Ok(())

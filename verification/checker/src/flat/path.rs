@@ -23,6 +23,7 @@ pub(super) struct Path {
     pub(super) doc: String,
     pub(super) on: Option<EventId>,
     pub(super) emits: Vec<OutputId>,
+    /// The results of all tests; once the whole net is made, without those that follow from others.
     pub(super) held: Held,
     pub(super) change: BTreeMap<PlaceId, i64>,
 }
@@ -41,7 +42,7 @@ impl Path {
             doc: String::new(),
             on: None,
             emits: Vec::new(),
-            held: branch.essential(),
+            held: branch.held.clone(),
             change: branch.change.clone(),
         };
         path.held.insert(from, (1, 1));

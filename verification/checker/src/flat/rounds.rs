@@ -143,6 +143,8 @@ pub fn rounds(system: &System<'_>) -> Result<Rounds, FlatError> {
         disturbed.extend(more);
         guesses.retain(|sum| rounds.paths.iter().all(|path| sum.stays(&path.change)));
         if (guesses.len(), disturbed.len()) == before {
+            let Rounds { known, paths, .. } = &mut rounds;
+            paths.iter_mut().for_each(|it| it.held = known.essential(&it.held));
             return Ok(rounds);
         }
     }
@@ -260,7 +262,7 @@ impl Rounds {
             match item {
                 Item::Settle { at, component } => {
                     let known = self.known.clone();
-                    let ways = branches(&known, &Held::new(), |branch| {
+                    let step = |branch: &mut Branch<'_>| {
                         let mut play = Play::new(moves, branch);
                         if let Some(component) = component {
                             play.settle(*component)?;
@@ -269,14 +271,14 @@ impl Rounds {
                             play.rest(disturbed)?;
                         }
                         Ok((play.name, play.emits))
-                    })?;
-                    for (branch, (name, emits)) in ways {
+                    };
+                    branches(&known, &Held::new(), step, |branch, (name, emits)| {
                         let part = if name.is_empty() { Part::Between } else { Part::Turn };
                         let name =
                             if name.is_empty() { "settled".to_owned() } else { name.join(" + ") };
-                        let path = Path::new(part, name, *at, after, &branch);
-                        self.push(Path { emits, ..path })?;
-                    }
+                        let path = Path::new(part, name, *at, after, branch);
+                        self.push(Path { emits, ..path })
+                    })?;
                 }
                 Item::Read { event, waiting, at } => {
                     more.append(&mut self.read(moves, *event, *waiting, at, after)?);
@@ -305,7 +307,7 @@ impl Rounds {
         for (left, &here) in at.iter().enumerate() {
             let next = if left == 0 { after } else { at[left - 1] };
             let held = if at.len() == 1 { Held::from([(waiting, (1, 1))]) } else { Held::new() };
-            let ways = branches(&known, &held, |branch| {
+            let step = |branch: &mut Branch<'_>| {
                 let mut play = Play::new(moves, branch);
                 let mut answer = None;
                 if play.branch.holds(waiting, 1) {
@@ -317,8 +319,8 @@ impl Rounds {
                 }
                 disturbed.append(&mut play.disturbs());
                 Ok((answer, play.name, play.doc, play.emits))
-            });
-            for (branch, (answer, name, doc, emits)) in ways? {
+            };
+            branches(&known, &held, step, |branch, (answer, name, doc, emits)| {
                 let (part, name, to) = match answer {
                     None => (Part::Between, format!("{} is empty", self.label(waiting)), after),
                     Some(Answer::Refused) => {
@@ -326,8 +328,8 @@ impl Rounds {
                     }
                     Some(_) => (Part::Turn, name.join(" + "), next),
                 };
-                self.push(Path { doc, emits, ..Path::new(part, name, here, to, &branch) })?;
-            }
+                self.push(Path { doc, emits, ..Path::new(part, name, here, to, branch) })
+            })?;
         }
         Ok(disturbed)
     }
@@ -385,28 +387,29 @@ impl Rounds {
                 }
                 let label = format!("{name}.{}", event.name);
                 let on = self.draft.event(&label, event.doc).map_err(|_| FlatError::TooMany)?;
-                let ways = branches(&known, &Held::new(), |branch| {
+                let step = |branch: &mut Branch<'_>| {
                     let mut play = Play::new(moves, branch);
                     let answer = play.deliver(of)?;
                     let happened = play.name.len();
                     play.rest(&Disturbed::new())?;
                     let fires = play.name.len() > happened;
                     Ok((answer, fires, play.name, play.doc, play.emits))
-                })?;
-                for (branch, (answer, fires, name, doc, emits)) in ways {
-                    // An event that is ignored and changes nothing is as if it had not come.
-                    let changes = fires || branch.change.values().any(|&it| it != 0);
-                    if answer == Answer::Fired || (answer == Answer::Ignored && changes) {
-                        let path = Path::new(
-                            Part::Outside,
-                            name.join(" + "),
-                            self.outside,
-                            self.round,
-                            &branch,
-                        );
-                        self.push(Path { doc, on: Some(on), emits, ..path })?;
-                    }
-                }
+                };
+                let (from, to) = (self.outside, self.round);
+                branches(
+                    &known,
+                    &Held::new(),
+                    step,
+                    |branch, (answer, fires, name, doc, emits)| {
+                        // An event that is ignored and changes nothing is as if it had not come.
+                        let changes = fires || branch.change.values().any(|&it| it != 0);
+                        if answer == Answer::Refused || (answer == Answer::Ignored && !changes) {
+                            return Ok(());
+                        }
+                        let path = Path::new(Part::Outside, name.join(" + "), from, to, branch);
+                        self.push(Path { doc, on: Some(on), emits, ..path })
+                    },
+                )?;
             }
         }
         Ok(())
