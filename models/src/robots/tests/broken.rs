@@ -93,7 +93,7 @@ fn each_cause_has_one_message_with_its_place_and_what_to_do() {
             "[hardware.base]",
             "[hardware.base]\nweight = 3",
             "4:1: unknown key `weight` in `base`",
-            "known keys here: title, units, source",
+            "known keys here: title, units, power_mw, kind, source",
         ),
         (
             "[hardware.radio]",
