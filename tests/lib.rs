@@ -3,6 +3,8 @@
 
 #[path = "../core/tests/common/draw.rs"]
 pub mod draw;
+#[path = "../verification/tests/rounds/drawn.rs"]
+pub mod drawn;
 pub mod families;
 #[path = "../core/allocation/tests/allocators/instances.rs"]
 pub mod instances;

@@ -20,7 +20,8 @@ use cotama_verification::conform::{
 
 /// The nets of a mission's trace whose firings it leaves out: they stand for the robot and for the
 /// operator.
-const SILENT: [&str; 2] = ["faults", "operator"];
+const SILENT: [&str; 2] = ["faults", OPERATOR];
+const OPERATOR: &str = "operator";
 
 /// Tells a model again what was recorded.
 pub(crate) fn conform(args: &ConformArgs, screen: &Screen) -> Result<Exit, Failure> {
@@ -34,6 +35,10 @@ pub(crate) fn conform(args: &ConformArgs, screen: &Screen) -> Result<Exit, Failu
     let checked = model::with_system(&args.model.model, |it, labels| {
         let (tolerance, most_states) = (Millis(args.tolerance), args.max_states as usize);
         let (invisible, shared_names) = (&*labels.invisible, &*labels.shared);
+        // A robot without an operator has no net that stands for him.
+        let mut recording = recording.clone();
+        let has = |name: &str| it.components.iter().any(|it| it.name == name);
+        recording.silent.retain(|it| it != OPERATOR || has(it));
         check(it, &recording, Options { tolerance, most_states, invisible, shared_names })
     })?;
     let name = &args.model.model;

@@ -2,6 +2,7 @@
 
 use crate::common::Folder;
 use serde_json::json;
+use std::fmt::Write;
 
 /// A folder with the file that `cotama new` writes.
 fn cart(name: &str) -> Folder {
@@ -97,18 +98,20 @@ fn large(losses: usize) -> String {
         sub_objective = \"Hand\"\nmode = \"operator\"\nrequired = [\"drive\"]\nspeed_mm_s = 100\n"
         .to_owned();
     let flags: Vec<_> = (0..losses).map(|it| format!("\"f{it}\"")).collect();
-    text += &format!("[observer.eye]\nflags = [{}]\n", flags.join(", "));
+    let _ = writeln!(text, "[observer.eye]\nflags = [{}]", flags.join(", "));
     for at in 0..losses {
-        text += &format!(
+        let _ = writeln!(
+            text,
             "[hardware.h{at}]\n[module.m{at}]\nhardware = [\"h{at}\"]\n\
              [[failure]]\nid = \"F{at}\"\nmode = \"lost\"\n\
              severity = {{ autonomous = \"medium\", operator = \"weak\" }}\n\
-             flags = [\"f{at}\"]\nloses = [\"h{at}\"]\n"
+             flags = [\"f{at}\"]\nloses = [\"h{at}\"]"
         );
         for part in 0..3 {
-            text += &format!(
+            let _ = writeln!(
+                text,
                 "[[configuration]]\nname = \"S{part}.C{at}\"\nsub_objective = \"S{part}\"\n\
-                 mode = \"autonomous\"\nrequired = [\"drive\", \"m{at}\"]\nspeed_mm_s = 500\n"
+                 mode = \"autonomous\"\nrequired = [\"drive\", \"m{at}\"]\nspeed_mm_s = 500"
             );
         }
     }

@@ -8,6 +8,7 @@ mod once_wrong;
 mod patrol;
 mod players;
 mod readers;
+mod robots;
 mod skips;
 mod systems;
 #[allow(dead_code, unreachable_pub)] // the core tests and benchmarks read it too

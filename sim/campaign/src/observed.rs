@@ -3,7 +3,7 @@
 use cotama_models::cotama::{Diagnosis, FailureMode, local};
 use cotama_models::missions::faults::Moment;
 use cotama_models::robots::{self as row, Body, Robot};
-use cotama_sim::body::{Motion, effect};
+use cotama_sim::body::{FIRMWARE_WATCHDOG, Motion, effect};
 use cotama_sim::fleet::{self, record::Fate};
 use cotama_sim::robots;
 use cotama_sim::run::Outcome;
@@ -249,12 +249,16 @@ impl Observed {
 
 /// How long a failure lets the robot move without a required module: until it is seen, also after
 /// each time that a module is started anew for it; told, decided and answered, a round each; and
-/// until the robot stands.
+/// until the robot stands. A computer that is down sees nothing: the micro-controller stops then.
 fn allowed_ms(row: &row::Failure, body: &Body) -> u64 {
     let times = 1 + row.restarts.map_or(0, |it| u64::from(it.times));
+    let seen = match row.motion {
+        Motion::Mindless => row.latency.max(FIRMWARE_WATCHDOG),
+        _ => row.latency,
+    };
     let rounds = 5 * body.period.0;
     let brakes = body.speed_max.0.saturating_mul(1_000) / body.acceleration.max(1);
-    times.saturating_mul(row.latency.0 + rounds).saturating_add(brakes)
+    times.saturating_mul(seen.0 + rounds).saturating_add(brakes)
 }
 
 /// The braking distance from the largest speed, with a period before it begins.

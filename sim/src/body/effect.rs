@@ -9,7 +9,7 @@ use cotama_models::cotama::{
 pub use cotama_models::robots::Motion;
 
 /// How long the micro-controller waits for a command (Pioneer 3-DX).
-pub(crate) const FIRMWARE_WATCHDOG: Millis = Millis(2_000);
+pub const FIRMWARE_WATCHDOG: Millis = Millis(2_000);
 
 /// When a failure ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -21,7 +21,7 @@ mod robot;
 
 pub(crate) use chassis::{Chassis, DELIVERY};
 pub use drive::Drive;
-pub use effect::{Effect, Ends, Motion, effect};
+pub use effect::{Effect, Ends, FIRMWARE_WATCHDOG, Motion, effect};
 pub(crate) use laptop::Seen;
 pub(crate) use observing::{Observed, Watch};
 pub use planted::Planted;

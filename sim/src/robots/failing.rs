@@ -1,12 +1,9 @@
 //! The failures of a robot under way: how they change its motion, and when observers see them.
 
-use crate::body::{Drive, Motion};
+use crate::body::{Drive, FIRMWARE_WATCHDOG, Motion};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::Persistence;
 use cotama_models::robots::{self, Mode, Parts, Robot, Where};
-
-/// How long the micro-controller waits for a command.
-const FIRMWARE_WATCHDOG: Millis = Millis(2_000);
 
 /// A failure under way.
 #[derive(Clone, Copy, Debug)]

@@ -2,6 +2,7 @@
 //! is refused is refused for what another reading of it finds too.
 
 use crate::conformance::Draw;
+use crate::drawn::Drawn;
 use cotama_models::robots::Robot;
 use cotama_models::robots::requirements::{self, Requirement};
 use cotama_models::robots::supervisors::{OwnedSystem, system};
@@ -11,7 +12,6 @@ use cotama_verification::flat::{Looks, Rounds, Size, rounds};
 use cotama_verification::property;
 use cotama_verification::pt::Pt;
 use std::collections::BTreeSet;
-use std::fmt::Write;
 
 fn holds(rounds: &Rounds, it: &Requirement) -> bool {
     let mut rounds = rounds.clone();
@@ -90,166 +90,13 @@ fn each_mistake_in_the_supervisors_breaks_the_requirement_that_forbids_it() {
     }
 }
 
-/// A robot as it is drawn: modules with what they need, configurations, failures.
-struct Drawn {
-    hardware: usize,
-    /// For each module, its hardware and the modules that it needs.
-    modules: Vec<(Vec<usize>, Vec<usize>)>,
-    /// Sub-objective, and modules.
-    configurations: Vec<(usize, Vec<usize>)>,
-    operator: Option<usize>,
-    failures: Vec<Failure>,
-}
-
-struct Failure {
-    hardware: Vec<usize>,
-    modules: Vec<usize>,
-    severity: [usize; 2],
-    restarts: bool,
-}
-
-const SUB_OBJECTIVES: [(&str, &str); 4] =
-    [("Plan", "autonomous"), ("Drive", "autonomous"), ("Hand", "operator"), ("Route", "operator")];
-const SEVERITIES: [&str; 4] = ["weak", "medium", "hard", "fatal"];
-
-impl Drawn {
-    fn new(draw: &mut Draw) -> Self {
-        let mut below = |most: u32| draw.below(most) as usize;
-        let hardware = 1 + below(4);
-        let mut modules: Vec<(Vec<usize>, Vec<usize>)> = Vec::new();
-        for at in 0..3 + below(5) {
-            let own = if below(4) > 0 { vec![below(hardware as u32)] } else { vec![] };
-            let needs = if at > 0 && below(2) == 0 { vec![below(at as u32)] } else { vec![] };
-            modules.push((own, needs));
-        }
-        let many = modules.len() as u32;
-        let operator = (below(3) > 0).then(|| below(many));
-        let mut configurations = Vec::new();
-        for sub_objective in 0..if operator.is_some() { 2 + below(3) } else { 1 + below(2) } {
-            // Mostly, each does without a module of the one before it.
-            let mut all: Vec<usize> = (0..many as usize).filter(|_| below(3) == 0).collect();
-            all.push(below(many));
-            all.sort_unstable();
-            all.dedup();
-            for _ in 0..=below(3) {
-                configurations.push((sub_objective, all.clone()));
-                // What others need is needed still: the last module is needed by none.
-                if all.len() < 2 || all.pop().is_none() {
-                    break;
-                }
-            }
-        }
-        let mut failures = Vec::new();
-        for at in 0..modules.len() + 2 {
-            // Mostly each module fails by itself, and mildly.
-            let mut severity = || [0, 1, 1, 2, 3][if below(4) > 0 { below(3) } else { below(5) }];
-            let severity = [severity(), severity()];
-            let severity = if operator.is_none() { [severity[0].min(1), 1] } else { severity };
-            let one = at < modules.len() && below(3) > 0;
-            failures.push(Failure {
-                hardware: if one || below(3) > 0 { vec![] } else { vec![below(hardware as u32)] },
-                modules: if one { vec![at] } else { vec![] },
-                severity,
-                restarts: below(6) == 0,
-            });
-        }
-        Self { hardware, modules, configurations, operator, failures }
-    }
-
-    fn text(&self) -> String {
-        let list = |prefix: &str, all: &[usize]| {
-            all.iter().map(|it| format!("\"{prefix}{it}\"")).collect::<Vec<_>>().join(", ")
-        };
-        let mut text = "format = \"cotama-robot/1\"\nname = \"drawn\"\n".to_owned();
-        for it in 0..self.hardware {
-            let _ = writeln!(text, "[hardware.h{it}]");
-        }
-        for (at, (hardware, needs)) in self.modules.iter().enumerate() {
-            let (hardware, needs) = (list("h", hardware), list("m", needs));
-            let _ = writeln!(text, "[module.m{at}]\nhardware = [{hardware}]\nneeds = [{needs}]");
-        }
-        let flags: Vec<_> = (0..self.failures.len()).collect();
-        let _ = writeln!(text, "[observer.eye]\nflags = [{}]", list("f", &flags));
-        if let Some(it) = self.operator {
-            let _ = writeln!(text, "[operator]\nneeds = [\"m{it}\"]");
-        }
-        for (at, (sub_objective, required)) in self.configurations.iter().enumerate() {
-            let (name, mode) = SUB_OBJECTIVES[*sub_objective];
-            let speed = if *sub_objective % 3 == 0 { 0 } else { 100 };
-            let _ = writeln!(
-                text,
-                "[[configuration]]\nname = \"C{at}\"\nsub_objective = \"{name}\"\n\
-                 mode = \"{mode}\"\nrequired = [{}]\nspeed_mm_s = {speed}",
-                list("m", required)
-            );
-        }
-        for (at, it) in self.failures.iter().enumerate() {
-            let [own, operator] = it.severity.map(|it| SEVERITIES[it]);
-            let loses = [list("h", &it.hardware), list("m", &it.modules)];
-            let loses: Vec<_> = loses.into_iter().filter(|it| !it.is_empty()).collect();
-            let _ = writeln!(
-                text,
-                "[[failure]]\nid = \"X{at}\"\nmode = \"drawn\"\nflags = [\"f{at}\"]\n\
-                 severity = {{ autonomous = \"{own}\", operator = \"{operator}\" }}\n\
-                 loses = [{}]",
-                loses.join(", ")
-            );
-            if it.restarts {
-                text += "restart = { module = \"m0\", times = 1 }\n";
-            }
-        }
-        text
-    }
-
-    /// Whether a module works after these failures, looked up from the top down.
-    fn works(&self, module: usize, failed: u32) -> bool {
-        let (hardware, needs) = &self.modules[module];
-        let mut failed_ones = (0..self.failures.len()).filter(|it| failed >> it & 1 == 1);
-        failed_ones.all(|it| {
-            let it = &self.failures[it];
-            !it.modules.contains(&module) && !hardware.iter().any(|own| it.hardware.contains(own))
-        }) && needs.iter().all(|it| self.works(*it, failed))
-    }
-
-    fn runs(&self, configuration: usize, failed: u32) -> bool {
-        self.configurations[configuration].1.iter().all(|it| self.works(*it, failed))
-    }
-
-    fn stands(&self, module: usize) -> bool {
-        let (hardware, needs) = &self.modules[module];
-        !hardware.is_empty() || needs.iter().any(|it| self.stands(*it))
-    }
-
-    /// Returns the parts that make no sense, in words of messages.
-    fn faults(&self) -> BTreeSet<&'static str> {
-        let mut faults = BTreeSet::new();
-        if !(0..self.modules.len()).all(|it| self.stands(it)) {
-            // The rest is not looked at then.
-            return BTreeSet::from(["stands on no hardware"]);
-        }
-        let sets = 0..1_u32 << self.failures.len();
-        for (at, (objective, _)) in self.configurations.iter().enumerate() {
-            let before = (0..at).filter(|it| self.configurations[*it].0 == *objective);
-            let before: Vec<_> = before.collect();
-            let is_best = |set| self.runs(at, set) && before.iter().all(|it| !self.runs(*it, set));
-            if !sets.clone().any(is_best) {
-                faults.insert("never runs");
-            }
-        }
-        if self.operator.is_none() && self.failures.iter().any(|it| it.severity[0] == 2) {
-            faults.insert("nobody to ask");
-        }
-        faults
-    }
-}
-
 /// Draws robots; each loads and keeps its requirements, or is refused for its faults. Returns how
 /// many load.
 fn robots(seed: u64, count: usize) -> usize {
     let mut draw = Draw(seed);
     let mut loaded = 0;
     for number in 0..count {
-        let drawn = Drawn::new(&mut draw);
+        let drawn = Drawn::new(&mut |most| draw.below(most) as usize);
         let (text, faults) = (drawn.text(), drawn.faults());
         match Robot::parse("drawn.toml", &text) {
             Ok(robot) => {

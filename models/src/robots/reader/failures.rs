@@ -6,7 +6,7 @@ use crate::fmeca::thousandths;
 use crate::missions::reader::fields::Fields;
 use crate::missions::{Diagnostic, Spanned};
 use crate::names::quoted;
-use crate::robots::{Failure, Parts, Restarts};
+use crate::robots::{Failure, Motion, Parts, Restarts};
 use cotama_core::units::Millis;
 
 const SEVERITIES: [&str; 4] = ["weak", "medium", "hard", "fatal"];
@@ -69,6 +69,12 @@ fn failure(mut fields: Fields<'_>, names: &Names) -> Option<Failure> {
     let latency = fields.optional_integer("latency_ms", TIMES);
     let loses = parts(&mut fields, "loses", names);
     let motion = super::body::motion(&mut fields);
+    let is_fatal = |it: &(Severity, Severity)| [it.0, it.1] == [Severity::Fatal; 2];
+    if motion == Some(Motion::Runaway) && severity.as_ref().is_some_and(|it| !is_fatal(it)) {
+        let message = "a motor that runs away is stopped by a halt alone, and this is not fatal";
+        let it = Diagnostic::new(fields.span_of("motion"), message, "nobody stops it");
+        fields.report(it.help("call it `fatal` in both modes, or name another motion"));
+    }
     let ends = fields.optional_integer("ends_ms", TIMES);
     let helped = fields.optional_flag("helped");
     let restarts = match fields.optional_table("restart") {

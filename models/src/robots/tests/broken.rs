@@ -295,6 +295,24 @@ fn each_cause_has_one_message_with_its_place_and_what_to_do() {
             "write `lidar`",
         ),
         (
+            "loses = [\"lidar\"]",
+            "loses = [\"lidar\"]\nmotion = \"runaway\"",
+            "40:10: a motor that runs away is stopped by a halt alone, and this is not fatal",
+            "call it `fatal` in both modes, or name another motion",
+        ),
+        (
+            "loses = [\"lidar\"]",
+            "loses = [\"lidar\"]\nmotion = \"runs\"",
+            "40:10: unknown effect on motion `runs`",
+            "known: blocked, runaway, dead, silent, mindless",
+        ),
+        (
+            "loses = [\"lidar\"]",
+            "loses = [\"lidar\"]\nmotion = \"dead\"\nslowed_permille = 500",
+            "40:10: a failure has one effect on motion",
+            "leave one of them out",
+        ),
+        (
             "mean_hours = 400",
             "mean_hours = 0",
             "40:14: `0` is no mean time in hours",

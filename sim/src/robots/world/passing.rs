@@ -68,7 +68,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
 
     /// Whether the robot would go on at its speed for a period.
     fn is_steady(&self) -> bool {
-        let mut next = self.drive.clone();
+        let mut next = self.drive;
         self.failures.go(self.robot, self.now, &self.demand(), &mut next);
         next.speed() == self.drive.speed()
     }
