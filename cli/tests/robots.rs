@@ -89,6 +89,46 @@ fn commands_of_missions_say_that_a_robot_is_none() {
     }
 }
 
+#[test]
+fn mistakes_in_the_file_of_the_transport_robot_are_found() {
+    let folder = Folder::new("robots_mistakes");
+    let whole = folder.cotama(&["show", "transport"]).stdout;
+    let with = |from: &str, to: &str| {
+        assert!(whole.contains(from), "{from}");
+        whole.replacen(from, to, 1)
+    };
+    // Nobody sees that the camera fails, creep speed is called the best, and another module is
+    // started anew.
+    let unseen = with("flags = [\"depth_late\"]\nlatency_ms", "unseen = \"\"\nlatency_ms");
+    let ranked = with("\"Manual.Guarded\"", "\"Manual.Guarded\"\nrank = 2");
+    let ranked = ranked.replacen("\"Manual.Creep\"", "\"Manual.Creep\"\nrank = 1", 1);
+    let started = with("restart = { module = \"scan\"", "restart = { module = \"fleet\"");
+    for (text, said) in [
+        (unseen, "`Follow.Low` never runs"),
+        (ranked, "`Manual.Guarded` never runs"),
+        (started, "`LID1` starts `fleet` anew, which works without what it loses"),
+    ] {
+        folder.write("mistaken.toml", text);
+        let ended = folder.cotama(&["check", "mistaken.toml"]);
+        assert_eq!(ended.code, Some(2));
+        assert!(ended.stderr.contains(said), "{}", ended.stderr);
+    }
+    // A wheel that is blocked is recorded, and nobody is asked: the file makes sense.
+    let hard =
+        "severity = { autonomous = \"hard\", operator = \"hard\" }\nflags = [\"wheel_blocked\"]";
+    folder.write("mistaken.toml", with(hard, &hard.replace("hard", "weak")));
+    let mission = folder.cotama(&["show", "shift"]).stdout;
+    let mission = mission.split("[run]").next().unwrap().replace("\"transport", "\"mistaken.toml");
+    folder.write("round.toml", mission);
+    let line = "campaign round.toml --runs 2000 --require not-failed --out found";
+    let line: Vec<_> = line.split(' ').collect();
+    assert_eq!(folder.cotama(&line).code, Some(1));
+    let small = folder.read("found/failures/001.toml");
+    let event = small.split("event = [").nth(1).unwrap().split("]\n").next().unwrap();
+    assert!(event.lines().filter(|it| it.contains("mode")).count() == 1, "{small}");
+    assert!(event.contains("WHL1"), "{small}");
+}
+
 /// The file of a robot with so many kinds of hardware that may be lost, and a configuration for each
 /// of them in each of three sub-objectives.
 fn large(losses: usize) -> String {
@@ -127,7 +167,7 @@ fn a_robot_too_large_for_one_net_is_unknown_in_little_memory() {
         assert_eq!(ended.code, Some(3), "{line}: {}", ended.stderr);
         let answer: serde_json::Value = serde_json::from_str(&ended.stdout).unwrap();
         let results = answer["results"].as_array().unwrap();
-        assert_eq!((results.len(), &results[0]["id"]), (59, &json!("GS1")), "{line}");
+        assert_eq!((results.len(), &results[0]["id"]), (60, &json!("GS1")), "{line}");
         assert!(results.iter().all(|it| it["verdict"] == "unknown"), "{line}");
     }
     let asked = folder.cotama(&["check", "large.toml", "--property", "AG !hand.ByHand"]);

@@ -126,6 +126,16 @@ pub(super) fn makes_sense(robot: &Robot, at: &Places, sink: &Sink) -> bool {
             let help = "let an observer see it that does not need what is lost";
             wrong(span(), message, "never seen", help);
         }
+        let works = |module: usize| robot.available(it.loses) >> module & 1 == 1;
+        if let Some(again) =
+            it.restarts.filter(|again| it.loses != Parts::NONE && works(again.module))
+        {
+            let module = robot.modules.get(again.module).map_or("", |it| it.name.as_str());
+            let (id, module) = (quoted(&it.id), quoted(module));
+            let message = format!("{id} starts {module} anew, which works without what it loses");
+            let help = "start a module that needs what is lost, or leave `restart` out";
+            wrong(span(), message, "does not help", help);
+        }
         if it.autonomous == Severity::Hard && robot.operator.is_none() {
             let message = format!("{} is hard, and there is nobody to ask", quoted(&it.id));
             let help = "call it `fatal`, or add an `[operator]` and a configuration for him";

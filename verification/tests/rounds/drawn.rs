@@ -135,10 +135,16 @@ impl Drawn {
                 let _ = writeln!(text, "{it}");
             }
             if it.restarts {
-                text += "restart = { module = \"m0\", times = 1 }\n";
+                let module = self.restarted(at);
+                let _ = writeln!(text, "restart = {{ module = \"m{module}\", times = 1 }}");
             }
         }
         text
+    }
+
+    /// The module that a failure starts anew: mostly its own.
+    fn restarted(&self, failure: usize) -> usize {
+        if failure < self.modules.len() { failure } else { 0 }
     }
 
     /// Whether a module works after these failures, looked up from the top down.
@@ -176,6 +182,13 @@ impl Drawn {
             if !sets.clone().any(is_best) {
                 faults.insert("never runs");
             }
+        }
+        let in_vain = |(at, it): (usize, &Failure)| {
+            let loses = !it.modules.is_empty() || !it.hardware.is_empty();
+            it.restarts && loses && self.works(self.restarted(at), 1 << at)
+        };
+        if self.failures.iter().enumerate().any(in_vain) {
+            faults.insert("starts");
         }
         if self.operator.is_none() && self.failures.iter().any(|it| it.severity[0] == 2) {
             faults.insert("nobody to ask");

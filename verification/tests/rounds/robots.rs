@@ -107,7 +107,7 @@ fn robots(seed: u64, count: usize) -> usize {
             }
             Err(errors) => {
                 let said = errors.to_string();
-                let known = ["stands on no hardware", "never runs", "nobody to ask"];
+                let known = ["stands on no hardware", "never runs", "starts", "nobody to ask"];
                 let found: BTreeSet<_> = known.into_iter().filter(|it| said.contains(it)).collect();
                 // That nothing leads to a configuration follows from severities, which `faults`
                 // does not look at.

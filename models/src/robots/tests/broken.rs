@@ -295,6 +295,12 @@ fn each_cause_has_one_message_with_its_place_and_what_to_do() {
             "write `lidar`",
         ),
         (
+            "flags = [\"late\"]",
+            "flags = [\"late\"]\nrestart = { module = \"link\", times = 1 }",
+            "35:6: `LID1` starts `link` anew, which works without what it loses",
+            "start a module that needs what is lost, or leave `restart` out",
+        ),
+        (
             "loses = [\"lidar\"]",
             "loses = [\"lidar\"]\nmotion = \"runaway\"",
             "40:10: a motor that runs away is stopped by a halt alone, and this is not fatal",
