@@ -129,7 +129,7 @@ fn mistakes_in_the_file_of_the_transport_robot_are_found() {
     assert!(event.contains("WHL1"), "{small}");
 }
 
-/// The file of a robot with so many kinds of hardware that may be lost, and a configuration for each
+/// A file of a robot with so many kinds of hardware that may be lost, and a configuration for each
 /// of them in each of three sub-objectives.
 fn large(losses: usize) -> String {
     let mut text = "format = \"cotama-robot/1\"\nname = \"large\"\n\
