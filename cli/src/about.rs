@@ -73,6 +73,7 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
         SchemaName::Campaign => schemas.into_root_schema_for::<CampaignAnswer>(),
         SchemaName::New => schemas.into_root_schema_for::<NewAnswer>(),
         SchemaName::Mission => return print(&file_schemas::mission()),
+        SchemaName::Robot => return print(&file_schemas::robot_file()),
         SchemaName::Faults => return print(&file_schemas::faults()),
     };
     print(&schema)

@@ -3,6 +3,7 @@
 use crate::args::{DrawnAs, ExportArgs, Format, Semantics};
 use crate::exit::{Exit, Failure};
 use crate::model::{self, Found};
+use crate::names::near;
 use crate::output::{self, Screen};
 use crate::render::style::NAME;
 use crate::render::visible;
@@ -43,7 +44,38 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
     }
     let style = args.style.unwrap_or(DrawnAs::Auto);
     let name = &args.model.model;
-    let text = match (model::find(name)?, args.semantics) {
+    let found = model::find(name)?;
+    let part = args.net.as_deref().map(|net| match &found {
+        Found::System(it) => written_part(it, name, net, format, style, screen),
+        Found::Robot(it) => it.system.with(|it| written_part(it, name, net, format, style, screen)),
+        _ => Err(Failure::new(format!("`{name}` is one net: --net is for systems"))
+            .help("leave --net out")),
+    });
+    let text = match part {
+        Some(part) => part?,
+        None => whole(found, args, format, style, screen)?,
+    };
+    match &args.output {
+        None if format == Format::Net => Screen::raw(shown(&text, screen).as_bytes())?,
+        None => Screen::raw(text.as_bytes())?,
+        Some(path) => {
+            output::file(path, text.as_bytes())?;
+            screen.note(&format!("written: {NAME}{}{NAME:#}", path.display()));
+        }
+    }
+    Ok(Exit::Success)
+}
+
+/// The text of a whole model.
+fn whole(
+    found: Found,
+    args: &ExportArgs,
+    format: Format,
+    style: DrawnAs,
+    screen: &Screen,
+) -> Result<String, Failure> {
+    let name = &args.model.model;
+    Ok(match (found, args.semantics) {
         (Found::System(_) | Found::Robot(_), None)
             if format == Format::Svg && args.style.is_some() =>
         {
@@ -81,16 +113,7 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
             let what = format!("written as {}", self::name(format));
             written(&loaded.plain(name, &what)?.view().net(), format, style, screen)?
         }
-    };
-    match &args.output {
-        None if format == Format::Net => Screen::raw(shown(&text, screen).as_bytes())?,
-        None => Screen::raw(text.as_bytes())?,
-        Some(path) => {
-            output::file(path, text.as_bytes())?;
-            screen.note(&format!("written: {NAME}{}{NAME:#}", path.display()));
-        }
-    }
-    Ok(Exit::Success)
+    })
 }
 
 /// A `.net` file as a screen may show it: the format cannot escape characters of a name that a
@@ -130,6 +153,25 @@ fn written(
         Format::Json => json::write(net),
         Format::Net => time_net(net, screen)?,
     })
+}
+
+/// One net of a system.
+fn written_part(
+    system: &System<'_>,
+    model: &str,
+    net: &str,
+    format: Format,
+    style: DrawnAs,
+    screen: &Screen,
+) -> Result<String, Failure> {
+    let names = || system.components.iter().map(|it| it.name);
+    let Some(it) = system.components.iter().find(|it| it.name == net) else {
+        let guess =
+            near(net, names()).map_or_else(String::new, |it| format!("; did you mean `{it}`?"));
+        return Err(Failure::new(format!("`{model}` has no net `{net}`{guess}"))
+            .help(format!("its nets: {}", names().collect::<Vec<_>>().join(", "))));
+    };
+    written(it.net, format, style, screen)
 }
 
 /// A system as one net.

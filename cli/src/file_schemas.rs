@@ -5,6 +5,9 @@
 //! together: that objectives follow each other, say, only the reader finds out.
 
 mod parts;
+mod robot;
+
+pub(crate) use robot::robot as robot_file;
 
 use cotama_core::hardware::{MAX_KINDS, MAX_UNITS};
 use cotama_models::cotama::{Configuration, FailureMode, Module};

@@ -13,6 +13,7 @@ use crate::args::{FmecaArgs, FmecaFormat};
 use crate::exit::{Exit, Failure};
 use crate::input;
 use crate::kind::{self, Kind};
+use crate::model;
 use crate::names::{near, quoted};
 use crate::output::{self, Screen};
 use crate::render;
@@ -69,7 +70,7 @@ fn read(path: &str) -> Result<Analysis, Failure> {
     };
     let text = kind::text(path, "an FMECA", input::FMECA_BYTES, &[Kind::Fmeca, Kind::Robot])?;
     if kind::is_of(&text, Kind::Robot) {
-        return of_robot(path, &Robot::parse(path, &text)?);
+        return of_robot(path, model::robot_file(path, &text)?.robot());
     }
     Ok(parse(path, &text)?)
 }

@@ -4,6 +4,7 @@ use crate::args::{AllocatorName, Lost, Objective, Planning, STEPS};
 use crate::exit::Failure;
 use crate::input;
 use crate::kind::{self, Kind};
+use crate::model;
 use crate::names::{is_name, near};
 use cotama_campaign::subject::Subject;
 use cotama_core::hardware::Equipment;
@@ -76,7 +77,7 @@ pub(crate) fn robot(name: &str, folder: Option<&Path>) -> Result<RobotFile, Fail
         return Err(Failure::new(message).help(help));
     }
     let text = kind::text(&path, "a robot's file", input::MISSION_BYTES, &[Kind::Robot])?;
-    Ok(RobotFile::parse(&path, &text)?)
+    model::robot_file(&path, &text)
 }
 
 /// A subject of a campaign whose failures name this source, if it can be read again.

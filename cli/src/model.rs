@@ -5,7 +5,7 @@ use crate::exit::Failure;
 use crate::file_errors::FileErrors;
 use crate::input;
 use crate::kind::{self, Kind as FileKind};
-use crate::names::{is_name, near};
+use crate::names::{is_name, near, quoted};
 use crate::team::{self, Chosen, Protocol, Team};
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::net::{Known, TransitionId};
@@ -13,7 +13,7 @@ use cotama_core::system::{Component, System};
 use cotama_models::nets;
 use cotama_models::robots::requirements::Requirement as RobotRequirement;
 use cotama_models::robots::supervisors::OwnedSystem;
-use cotama_models::robots::{self, Robot};
+use cotama_models::robots::{self, Robot, RobotFile};
 use cotama_models::team::protocol::Requirement;
 use cotama_models::team::scenario::Scenario;
 use cotama_verification::formats::json::{self, JsonNetError};
@@ -21,6 +21,7 @@ use cotama_verification::pnml::{self, Imported, Limits, PnmlErrors};
 use cotama_verification::pt::Extras;
 use cotama_verification::tina;
 use cotama_verification::tpn::{self, Interval, NotANet, TimeNet};
+use std::fs;
 use std::path::Path;
 
 /// A net and what is known of it.
@@ -193,7 +194,7 @@ fn file(path: &str) -> Result<Found, Failure> {
     }
     if kind::is_of(&bytes, FileKind::Robot) {
         let text = input::utf8(path, WHAT, bytes)?;
-        return Ok(Found::from(&Robot::parse(input::name(path), &text)?));
+        return Ok(Found::from(robot_file(path, &text)?.robot()));
     }
     let end = Path::new(path).extension().map(|end| end.to_string_lossy().to_lowercase());
     let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes).trim_ascii_start();
@@ -221,7 +222,22 @@ pub(crate) fn robot(name: &str) -> Result<Option<Robot>, Failure> {
         return Ok(None);
     }
     let text = kind::text(name, "a robot's file", input::MISSION_BYTES, &[FileKind::Robot])?;
-    Ok(Some(Robot::parse(name, &text)?))
+    Ok(Some(robot_file(name, &text)?.robot().clone()))
+}
+
+/// The robot of this text; nets that it names stand beside the file.
+pub(crate) fn robot_file(path: &str, text: &str) -> Result<RobotFile, Failure> {
+    let folder = Path::new(path).parent();
+    let own = &mut |name: &str| {
+        let net = folder.map_or_else(|| name.into(), |it| it.join(name));
+        let refused = |why: std::io::Error| format!("{}: {why}", quoted(name));
+        if fs::metadata(&net).map_err(refused)?.len() > json::MAX_BYTES as u64 {
+            return Err(format!("{} is too large for a net", quoted(name)));
+        }
+        let text = fs::read_to_string(&net).map_err(refused)?;
+        json::read(&text).map_err(|why| format!("{}: {why}", quoted(name)))
+    };
+    Ok(RobotFile::parse_with(input::name(path), text, own)?)
 }
 
 /// The protocol by which a team gives its tasks out.

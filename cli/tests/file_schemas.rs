@@ -71,6 +71,30 @@ fn every_mission_and_every_file_of_faults_is_as_its_schema_says() {
     assert!(missions >= 5 && scripts >= 2, "{missions} {scripts}");
 }
 
+#[test]
+fn every_robot_is_as_its_schema_says() {
+    let folder = Folder::new("file_schemas_robots");
+    folder.cotama(&["new", "robot", "cart", "--json"]).json(0);
+    let validator = validator("robot");
+    let shipped = ["p3dx-delivery", "p3dx-patrol", "transport"];
+    let shipped = shipped.map(|it| folder.cotama(&["show", it]).stdout);
+    for text in shipped.into_iter().chain([folder.read("cart.toml")]) {
+        assert_eq!(wrong(&validator, &text), Vec::<String>::new());
+        for (right, instead) in [
+            ("mode = \"autonomous\"", "mode = \"alone\""),
+            ("[[configuration]]", "[[configurations]]"),
+            ("speed_max_mm_s", "speed_max"),
+            ("latency_ms = ", "latency_ms = -"),
+        ] {
+            assert!(text.contains(right));
+            let text = text.replacen(right, instead, 1);
+            assert_ne!(wrong(&validator, &text), Vec::<String>::new(), "{instead}");
+            folder.write("wrong.toml", text);
+            assert_eq!(folder.cotama(&["check", "wrong.toml"]).code, Some(2), "{instead}");
+        }
+    }
+}
+
 /// Files that are wrong by their shape: a mission that is right, what stands in it, and what would
 /// be wrong there.
 const WRONG_MISSIONS: [(&str, &str, &str); 40] = [

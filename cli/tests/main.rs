@@ -33,6 +33,7 @@ mod new;
 mod next;
 mod one_cause;
 mod own_fmeca;
+mod own_supervisor;
 mod places;
 mod plan;
 mod questions;

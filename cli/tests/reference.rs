@@ -27,6 +27,7 @@ const TABLES: [(&str, &str, &str, &str); 12] = [
 fn is(value: &Value) -> &'static str {
     match (value["type"].as_str().unwrap(), value["items"]["type"].as_str()) {
         ("integer", _) => "integer",
+        ("number", _) => "number",
         ("string", _) => "text",
         ("boolean", _) => "true or false",
         ("array", Some("string")) => "array of text",
@@ -57,6 +58,46 @@ fn described(page: &str, heading: &str) -> BTreeSet<String> {
     let (_, rest) = page.split_once(&format!("### {heading}\n")).expect(heading);
     let rows = rest.lines().take_while(|it| !it.starts_with('#'));
     rows.filter(|it| it.starts_with("| `")).map(str::to_owned).collect()
+}
+
+/// The tables of a robot's file, where they stand in the schema, and the lines that begin them.
+const ROBOT_TABLES: [(&str, &str, &str); 9] = [
+    ("the file", "", "format = \"cotama-robot/1\""),
+    ("[body]", "/properties/body", "[body]"),
+    ("[hardware.NAME]", "/properties/hardware/additionalProperties", "[hardware.base]"),
+    ("[module.NAME]", "/properties/module/additionalProperties", "[module.scan]"),
+    ("[observer.NAME]", "/properties/observer/additionalProperties", "[observer.timing]"),
+    ("[operator]", "/properties/operator", "[operator]"),
+    ("[supervisors]", "/properties/supervisors", "[supervisors]"),
+    ("[[configuration]]", "/properties/configuration/items", "[[configuration]]"),
+    ("[[failure]]", "/properties/failure/items", "[[failure]]"),
+];
+
+#[test]
+fn the_page_of_robots_agrees_with_the_schema_and_the_reader() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/robots.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    assert_eq!(page.matches("\n### ").count(), ROBOT_TABLES.len());
+    let folder = Folder::new("reference_robot");
+    folder.cotama(&["new", "robot", "cart", "--json"]).json(0);
+    let cart = format!("{}[supervisors]\nlocal = \"x.json\"\n", folder.read("cart.toml"));
+    let schema = schema("robot");
+    let mut wrong = Vec::new();
+    for (heading, place, line) in ROBOT_TABLES {
+        let line = format!("\n{line}\n");
+        assert!(cart.contains(&line), "{line}");
+        folder.write("robot.toml", cart.replacen(&line, &format!("{line}nonsense = 1\n"), 1));
+        let said = folder.cotama(&["check", "robot.toml"]).stderr;
+        let table = schema.pointer(place).unwrap();
+        let known: BTreeSet<_> = known(&said).into_iter().filter(|it| it != "source").collect();
+        assert_eq!(keys(table), known, "{heading}");
+        let (shown, made) = (described(&page, heading), rows(table));
+        if shown != made {
+            let made: Vec<_> = made.into_iter().collect();
+            wrong.push(format!("### {heading}\n{}", made.join("\n")));
+        }
+    }
+    assert!(wrong.is_empty(), "tables of docs/robots.md should have:\n{}", wrong.join("\n"));
 }
 
 #[test]

@@ -72,6 +72,9 @@ pub(crate) struct ExportArgs {
     /// Meaning of a system of nets, for all but its svg [default: rounds]
     #[arg(long, value_enum, value_name = "MEANING")]
     pub(crate) semantics: Option<Semantics>,
+    /// One net of a system or of a robot, by its name there
+    #[arg(long, value_name = "NAME", conflicts_with = "semantics")]
+    pub(crate) net: Option<String>,
     /// How dot, svg and mermaid draw it [default: auto]
     #[arg(long, value_enum)]
     pub(crate) style: Option<DrawnAs>,

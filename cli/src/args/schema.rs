@@ -36,6 +36,8 @@ pub(crate) enum SchemaName {
     Error,
     /// A mission file, in TOML
     Mission,
+    /// A robot's file, in TOML
+    Robot,
     /// A file of faults, in TOML
     Faults,
 }

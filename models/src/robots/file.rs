@@ -1,5 +1,6 @@
 //! A robot together with the text that says it.
 
+use super::supervisors::ReadNet;
 use super::{Robot, embedded};
 use crate::missions::MissionErrors;
 use std::sync::Arc;
@@ -24,8 +25,23 @@ impl RobotFile {
     /// # Errors
     /// As [`Robot::parse`].
     pub fn parse(source: &str, text: &str) -> Result<Self, MissionErrors> {
-        let robot = Arc::new(Robot::parse(source, text)?);
-        Ok(Self { source: source.to_owned(), text: text.into(), robot })
+        Ok(Self::of(source, text, Robot::parse(source, text)?))
+    }
+
+    /// The same of a robot that may name nets of its own; `own` reads them.
+    ///
+    /// # Errors
+    /// As [`Robot::parse_with`].
+    pub fn parse_with(
+        source: &str,
+        text: &str,
+        own: &mut ReadNet<'_>,
+    ) -> Result<Self, MissionErrors> {
+        Ok(Self::of(source, text, Robot::parse_with(source, text, own)?))
+    }
+
+    fn of(source: &str, text: &str, robot: Robot) -> Self {
+        Self { source: source.to_owned(), text: text.into(), robot: Arc::new(robot) }
     }
 
     /// Returns the robot of this name that comes with the program.

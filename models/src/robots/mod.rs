@@ -59,6 +59,7 @@ mod decision;
 mod diagnosis;
 mod embedded;
 mod file;
+pub mod known;
 mod level;
 mod losses;
 mod reached;
@@ -74,13 +75,14 @@ pub use decision::{Decision, Situation, Where, decide};
 pub use diagnosis::diagnose;
 pub use embedded::{EMBEDDED, EmbeddedRobot, embedded};
 pub use file::RobotFile;
+pub use known::FORMAT;
 pub use level::{Fired, Global, Level, Told};
 pub use losses::{Loss, Losses, Report};
-pub use reader::FORMAT;
 pub use script::{Answer, Incident, IncidentKind, Moment};
 
 use crate::cotama::{Persistence, Severity};
 use crate::missions::MotionPower;
+use cotama_core::net::owned::OwnedNet;
 use cotama_core::units::{Micros, MillimetresPerSecond, Millis, Milliwatts};
 
 /// The most kinds of hardware, and the most modules.
@@ -119,6 +121,8 @@ pub struct Robot {
     pub failures: Vec<Failure>,
     /// Reports of failures, and the losses that differ.
     pub losses: Losses,
+    /// The local supervisor, where the file names a net of its own; else it is made.
+    pub local: Option<OwnedNet>,
 }
 
 /// The body of a robot.

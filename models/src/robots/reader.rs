@@ -3,8 +3,10 @@
 mod body;
 mod failures;
 
+use super::known::{COSTS, FORMAT, MAX_FLAGS, MODES, POWERS, RANKS, SPEEDS, TIMES, UNITS};
 use super::losses::{Losses, TooMany};
 use super::sound::Places;
+use super::supervisors::{self, ReadNet};
 use super::{
     Configuration, Hardware, MAX_CONFIGURATIONS, MAX_FAILURES, MAX_LOSSES, MAX_PARTS, MAX_REPORTS,
     Mode, Module, Observer, Parts, Robot, SubObjective, sound,
@@ -12,23 +14,11 @@ use super::{
 use crate::missions::reader::fields::{Fields, Sink, document_of_either};
 use crate::missions::{Diagnostic, MissionErrors, Spanned};
 use crate::names::quoted;
+use cotama_core::net::owned::OwnedNet;
 use cotama_core::units::{Micros, MillimetresPerSecond, Millis, Milliwatts};
-use std::ops::RangeInclusive;
 
-/// Value of `format` in files of robots.
-pub const FORMAT: &str = "cotama-robot/1";
-/// Times in ms, up to an hour.
-const TIMES: RangeInclusive<i64> = 1..=3_600_000;
-/// Times in µs, up to a minute.
-const COSTS: RangeInclusive<i64> = 1..=60_000_000;
-/// Speeds in mm/s, up to 10 m/s.
-const SPEEDS: RangeInclusive<i64> = 0..=10_000;
-/// Power in mW, up to 10 kW.
-const POWERS: RangeInclusive<i64> = 0..=10_000_000;
 /// The time of what stands where nothing is said.
 const TAKES: Millis = Millis(1_000);
-/// The most flags of an observer.
-const MAX_FLAGS: usize = 64;
 
 /// Names of a file that others refer to, and the place of each part in the file.
 #[derive(Default)]
@@ -55,8 +45,21 @@ impl Robot {
     /// assert!(errors.contains(first), "{errors}");
     /// ```
     pub fn parse(source_name: &str, text: &str) -> Result<Self, MissionErrors> {
+        Self::parse_with(source_name, text, &mut |_| Err("no other file is read here".to_owned()))
+    }
+
+    /// The same of a robot that may name nets of its own; `own` reads them.
+    ///
+    /// # Errors
+    /// As [`parse`](Self::parse); a net that cannot be read, or has not the interface of the
+    /// supervisor that it replaces, too.
+    pub fn parse_with(
+        source_name: &str,
+        text: &str,
+        own: &mut ReadNet<'_>,
+    ) -> Result<Self, MissionErrors> {
         let sink = Sink::default();
-        let robot = document_of_either(text, &sink, FORMAT, robot);
+        let robot = document_of_either(text, &sink, FORMAT, |fields| robot(fields, own));
         match robot.filter(|_| sink.is_empty()) {
             Some(robot) => Ok(robot),
             None => Err(MissionErrors::new(source_name, text, sink.into_diagnostics())),
@@ -64,7 +67,7 @@ impl Robot {
     }
 }
 
-fn robot(mut fields: Fields<'_>) -> Option<Robot> {
+fn robot(mut fields: Fields<'_>, own: &mut ReadNet<'_>) -> Option<Robot> {
     let mut names = Names::default();
     let name = fields.id("name");
     let title = words(&mut fields, "title");
@@ -93,6 +96,14 @@ fn robot(mut fields: Fields<'_>) -> Option<Robot> {
     let failures = fields.tables_up_to("failure", false, MAX_FAILURES);
     let failures: Vec<_> =
         failures.into_iter().flatten().map(|it| failures::failures(it, &mut names)).collect();
+    let local = match fields.optional_table("supervisors") {
+        Ok(Some(mut it)) => {
+            let local = it.text("local");
+            it.finish();
+            local
+        }
+        _ => None,
+    };
     let sink = fields.sink();
     if let Some(one_too_many) = names.at.failures.get(MAX_FAILURES) {
         let message = format!("a robot has at most {MAX_FAILURES} failures");
@@ -122,6 +133,7 @@ fn robot(mut fields: Fields<'_>) -> Option<Robot> {
         observers: observers.into_iter().collect::<Option<_>>()?,
         failures: failures.into_iter().collect::<Option<Vec<_>>>()?.concat(),
         losses: Losses::default(),
+        local: None,
     };
     if !sink.is_empty() || !sound::is_grounded(&robot, &names.at, sink) {
         return None;
@@ -145,7 +157,39 @@ fn robot(mut fields: Fields<'_>) -> Option<Robot> {
             return None;
         }
     };
-    sound::makes_sense(&robot, &names.at, sink).then_some(robot)
+    if !sound::makes_sense(&robot, &names.at, sink) {
+        return None;
+    }
+    robot.local = match local {
+        Some(path) => Some(local_supervisor(&robot, &path, own, sink)?),
+        None => None,
+    };
+    Some(robot)
+}
+
+/// Reads the local supervisor that a file names, and holds it against the interface.
+fn local_supervisor(
+    robot: &Robot,
+    path: &Spanned<String>,
+    own: &mut ReadNet<'_>,
+    sink: &Sink,
+) -> Option<OwnedNet> {
+    let wrong = |message: String, label: &str, help: &str| {
+        sink.report(Diagnostic::new(path.span.clone(), message, label).help(help.to_owned()));
+    };
+    let net = match own(&path.value) {
+        Ok(net) => net,
+        Err(why) => {
+            wrong(why, "cannot be read", "`cotama export ROBOT --net ls --format json` writes one");
+            return None;
+        }
+    };
+    let defects = supervisors::defects(robot, &net);
+    for it in &defects {
+        let message = format!("{} is no local supervisor of this robot: {it}", quoted(&path.value));
+        wrong(message, "another interface", "`cotama export ROBOT --net ls` shows the interface");
+    }
+    defects.is_empty().then_some(net)
 }
 
 /// A text that may be left out.
@@ -172,7 +216,7 @@ fn named<'t>(fields: &mut Fields<'t>, key: &'static str, most: usize) -> Vec<Nam
 fn hardware((name, fields): Named<'_>) -> Option<Hardware> {
     let mut fields = fields?;
     let title = words(&mut fields, "title");
-    let units = fields.optional_integer("units", 1..=255);
+    let units = fields.optional_integer("units", UNITS);
     let power = fields.optional_integer("power_mw", POWERS);
     let kind = words(&mut fields, "kind");
     let source = words(&mut fields, "source");
@@ -296,8 +340,8 @@ fn configuration(mut fields: Fields<'_>, names: &mut Names) -> Option<Written> {
     names.at.configurations.push(fields.span_of("name"));
     let name = fields.id("name");
     let sub_objective = fields.id("sub_objective");
-    let mode = fields.choice("mode", "mode", &["autonomous", "operator"]);
-    let rank = fields.optional_integer("rank", 0..=255);
+    let mode = fields.choice("mode", "mode", &MODES);
+    let rank = fields.optional_integer("rank", RANKS);
     let required = fields.texts("required").and_then(|all| modules(&fields, &all, names));
     let optional = optional_modules(&mut fields, "optional", names);
     let speed = fields.optional_integer("speed_mm_s", SPEEDS);

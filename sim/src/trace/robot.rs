@@ -1,5 +1,6 @@
 //! The file of a robot in what is stored.
 
+use cotama_formats::json;
 use cotama_models::missions::MissionErrors;
 use cotama_models::robots::RobotFile;
 use serde::{Deserialize, Serialize};
@@ -11,12 +12,16 @@ pub struct RobotText {
     pub source: String,
     /// The whole text of the file.
     pub text: String,
+    /// The local supervisor, as JSON, where the file names a net of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub local: Option<String>,
 }
 
 impl RobotText {
     /// Returns the text of a robot's file.
     pub fn of(file: &RobotFile) -> Self {
-        Self { source: file.source().into(), text: file.text().into() }
+        let local = file.robot().local.as_ref().map(|it| json::write(&it.view().net()));
+        Self { source: file.source().into(), text: file.text().into(), local }
     }
 
     /// Reads the file.
@@ -24,6 +29,9 @@ impl RobotText {
     /// # Errors
     /// All errors of its text.
     pub fn file(&self) -> Result<RobotFile, MissionErrors> {
-        RobotFile::parse(&self.source, &self.text)
+        RobotFile::parse_with(&self.source, &self.text, &mut |_| {
+            let text = self.local.as_deref().ok_or("the trace does not hold this net")?;
+            json::read(text).map_err(|it| it.to_string())
+        })
     }
 }

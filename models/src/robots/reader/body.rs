@@ -2,30 +2,15 @@
 
 use crate::missions::reader::fields::Fields;
 use crate::missions::{Diagnostic, MotionPower, harmless_speed};
+use crate::robots::known::{BODY_SPEEDS, COEFFICIENTS, MOTIONS, PERIODS, POSITIVE, SLOWED};
 use crate::robots::{Body, Motion};
 use cotama_core::units::{Millijoules, MillimetresPerSecond, Millis};
-use std::ops::RangeInclusive;
 
-/// Masses in g, accelerations in mm/s², energies in mJ.
-const POSITIVE: RangeInclusive<i64> = 1..=1_000_000_000;
-/// Coefficients of the power of motion.
-const COEFFICIENTS: RangeInclusive<i64> = 0..=1_000_000_000;
-/// Speeds that a body can have, in mm/s.
-const SPEEDS: RangeInclusive<i64> = 1..=10_000;
-/// Periods of a control loop in ms, and the one where nothing is said (stated for the delivery:
-/// below 0.1 s a loop).
-const PERIODS: RangeInclusive<i64> = 10..=1_000;
+/// The period of a control loop where nothing is said (stated for the delivery: below 0.1 s a loop).
 const PERIOD: Millis = Millis(100);
-const MOTIONS: [(&str, Motion); 5] = [
-    ("blocked", Motion::Blocked),
-    ("runaway", Motion::Runaway),
-    ("dead", Motion::Dead),
-    ("silent", Motion::Silent),
-    ("mindless", Motion::Mindless),
-];
 
 pub(super) fn body(mut fields: Fields<'_>) -> Option<Body> {
-    let speed_max = fields.integer("speed_max_mm_s", SPEEDS).map(MillimetresPerSecond);
+    let speed_max = fields.integer("speed_max_mm_s", BODY_SPEEDS).map(MillimetresPerSecond);
     let acceleration = fields.integer("acceleration_mm_s2", POSITIVE);
     let period = fields.optional_integer("period_ms", PERIODS);
     let motion_power = fields.table("motion_power").and_then(|mut it| {
@@ -67,7 +52,7 @@ pub(super) fn body(mut fields: Fields<'_>) -> Option<Body> {
 
 /// Reads what a failure does to the motion: `motion`, or `slowed_permille`.
 pub(super) fn motion(fields: &mut Fields<'_>) -> Option<Motion> {
-    let slowed = fields.optional_integer::<u16>("slowed_permille", 1..=999);
+    let slowed = fields.optional_integer::<u16>("slowed_permille", SLOWED);
     let named = fields.optional_text("motion");
     let (slowed, named) = (slowed.ok()?, named.ok()?);
     match (slowed, named) {

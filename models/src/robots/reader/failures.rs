@@ -1,18 +1,17 @@
 //! Reading the failures of a robot.
 
-use super::{Names, TIMES, parts, words};
+use super::{Names, parts, words};
 use crate::cotama::{Persistence, Severity};
 use crate::fmeca::thousandths;
 use crate::missions::reader::fields::Fields;
 use crate::missions::{Diagnostic, Spanned};
 use crate::names::quoted;
+use crate::robots::known::{PERSISTENCES, RESTARTS, SEVERITIES, TIMES};
 use crate::robots::{Failure, Motion, Parts, Restarts};
 use cotama_core::units::Millis;
 
-const SEVERITIES: [&str; 4] = ["weak", "medium", "hard", "fatal"];
 /// The longest mean time: a million years.
 const MOST_MH: u64 = 8_766_000_000_000;
-const PERSISTENCES: [&str; 3] = ["permanent", "intermittent", "transient"];
 
 /// The failures of a row: one, or one for each module of `each`, which is lost with it.
 pub(super) fn failures(mut fields: Fields<'_>, names: &mut Names) -> Option<Vec<Failure>> {
@@ -153,7 +152,7 @@ fn restart(mut fields: Fields<'_>, names: &Names) -> Option<Restarts> {
     let module = fields.text("module");
     let known = || names.modules.iter().map(String::as_str);
     let module = module.and_then(|it| fields.index_of(&it, "module", known()));
-    let times = fields.integer("times", 1..=9);
+    let times = fields.integer("times", RESTARTS);
     fields.finish();
     Some(Restarts { module: module?, times: times? })
 }

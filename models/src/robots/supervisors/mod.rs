@@ -3,7 +3,7 @@
 //! | net | is made of |
 //! | --- | --- |
 //! | `gs`, global supervisor: one drive after another, or security | nothing: all have the same |
-//! | `ls`, local supervisor: sub-objectives, and the operator | sub-objectives, in their order |
+//! | `ls`, local supervisor: sub-objectives, and the operator | sub-objectives, in order; or a net of one's own |
 //! | adapters, named after the sub-objectives that have several configurations | ranks, losses |
 //! | `permit`, the permit to move | nothing: [`permit`] |
 //! | `gom`, observation: known losses, restarts | failures |
@@ -16,9 +16,12 @@
 mod cubes;
 mod draft;
 mod nets;
+mod own;
 mod owned;
 mod rust_source;
 
+pub use own::ReadNet;
+pub(super) use own::defects;
 pub use owned::OwnedSystem;
 
 use super::{Mode, Robot, SubObjective};
@@ -82,7 +85,7 @@ pub fn system(robot: &Robot) -> OwnedSystem {
     let doc = format!("The supervisors of {}, made from its file.", robot.name);
     let mut system = OwnedSystem::new(&word(&robot.name), &doc);
     system.net("gs", nets::global());
-    system.net("ls", nets::local(robot));
+    system.net("ls", robot.local.clone().unwrap_or_else(|| nets::local(robot)));
     for it in all.iter().filter(|it| has_adapter(it.is)) {
         system.net(&adapter(it.is), nets::adapter(robot, it));
     }
@@ -135,6 +138,10 @@ pub fn system(robot: &Robot) -> OwnedSystem {
 
 /// Binds what nets see of one another.
 fn shares(robot: &Robot, system: &mut OwnedSystem, all: &[&str]) {
+    // A local supervisor of the user's looks at what it likes.
+    let sees = |place: &str| {
+        robot.local.as_ref().is_none_or(|net| net.places.iter().any(|it| it.name == place))
+    };
     let has_operator = robot.operator.is_some();
     let watching = if has_operator { &["cs", "operator"][..] } else { &["cs"] };
     for by in watching {
@@ -158,11 +165,17 @@ fn shares(robot: &Robot, system: &mut OwnedSystem, all: &[&str]) {
     for flag in (0..robot.losses.losses.len()).map(|it| lost(robot, it)) {
         let adapters = adapters.iter().map(|it| it.0.as_str());
         for by in watching.iter().copied().chain(["ls"]).chain(adapters) {
-            system.share((by, &flag), ("gom", &flag));
+            if by != "ls" || sees(&flag) {
+                system.share((by, &flag), ("gom", &flag));
+            }
         }
     }
-    system.pending(("ls", "local_pending"), ("ls", "local_event"));
-    system.pending(("ls", "global_pending"), ("gs", "global_event"));
+    for (pending, event) in [("local_pending", "ls"), ("global_pending", "gs")] {
+        if sees(pending) {
+            let event = (event, pending.replace("pending", "event"));
+            system.pending(("ls", pending), (event.0, &event.1));
+        }
+    }
     system.clear(("ls", "gs_abort"), "local_event");
     system.clear(("ls", "gs_abort"), "start_drive");
 }

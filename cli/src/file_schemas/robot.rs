@@ -1,0 +1,175 @@
+//! The schema of a robot's file.
+
+use super::DRAFT;
+use super::parts::{choice, flag, id, integer, named, table, tables, text, with, word};
+use cotama_models::robots::known::{
+    BODY_SPEEDS, COEFFICIENTS, COSTS, FORMAT, MAX_FLAGS, MODES, MOTIONS, PERIODS, PERSISTENCES,
+    POSITIVE, POWERS, RANKS, RESTARTS, SEVERITIES, SLOWED, SPEEDS, TIMES, UNITS,
+};
+use cotama_models::robots::{MAX_CONFIGURATIONS, MAX_FAILURES, MAX_PARTS};
+use serde_json::{Value, json};
+
+/// The schema of a robot's file.
+pub(crate) fn robot() -> Value {
+    let most = |value: Value, keyword: &str, most: usize| with(value, keyword, most.into());
+    let parts =
+        |value: &Value, meaning: &str| most(named(value, meaning), "maxProperties", MAX_PARTS);
+    let lists = |value: &Value, count: usize, meaning: &str| {
+        most(tables(value, 0, meaning), "maxItems", count)
+    };
+    let needs = [
+        ("format", word(FORMAT, "how this file is written")),
+        ("name", id("the name of the robot")),
+        (
+            "configuration",
+            with(
+                lists(&configuration(), MAX_CONFIGURATIONS, "sets of modules that serve a part"),
+                "minItems",
+                1.into(),
+            ),
+        ),
+    ];
+    let can = [
+        ("title", text("the robot in a few words")),
+        ("body", body()),
+        ("hardware", parts(&hardware(), "what modules stand on")),
+        ("module", parts(&module(), "programs that sense, compute and act")),
+        ("observer", parts(&observer(), "who sees failures")),
+        ("operator", operator()),
+        ("supervisors", supervisors()),
+        ("failure", lists(&failure(), MAX_FAILURES, "rows of the FMECA")),
+    ];
+    let file = table(&needs, &can, "What a robot is made of, and what can fail on it.");
+    with(with(file, "$schema", DRAFT.into()), "title", "A robot of cotama".into())
+}
+
+/// A list of names.
+fn names(meaning: &str) -> Value {
+    json!({ "type": "array", "items": { "type": "string" }, "description": meaning })
+}
+
+fn body() -> Value {
+    let power = [
+        ("c0", integer(&COEFFICIENTS, "mW at rest")),
+        ("c1", integer(&COEFFICIENTS, "mW for each m/s")),
+        ("c2", integer(&COEFFICIENTS, "mW for each (m/s)²")),
+    ];
+    let power = table(&power, &[], "power for a speed: c0 + c1 v / 1000 + c2 v² / 1,000,000 mW");
+    let needs = [
+        ("speed_max_mm_s", integer(&BODY_SPEEDS, "its highest speed, in mm/s")),
+        ("acceleration_mm_s2", integer(&POSITIVE, "how fast it speeds up and brakes, in mm/s²")),
+        ("motion_power", power),
+    ];
+    let can = [
+        ("period_ms", integer(&PERIODS, "the period of its control loop, in ms; 100")),
+        ("mass_g", integer(&POSITIVE, "its mass, in g")),
+        (
+            "impact_energy_max_mj",
+            integer(&POSITIVE, "this energy of motion, in mJ, and more, would hurt somebody"),
+        ),
+    ];
+    table(&needs, &can, "how it moves; missions need it")
+}
+
+fn hardware() -> Value {
+    let can = [
+        ("title", text("what it is")),
+        ("units", integer(&UNITS, "how many there are; 1")),
+        ("power_mw", integer(&POWERS, "what each takes while it is on, in mW; 0")),
+        ("kind", text("the hardware of missions that it is a unit of; its name")),
+    ];
+    table(&[], &can, "a kind of hardware")
+}
+
+fn module() -> Value {
+    let can = [
+        ("title", text("what it does")),
+        ("hardware", names("hardware that it needs, all of it")),
+        ("needs", names("modules that it needs, all of them")),
+        ("one_of", names("modules of which it needs one")),
+        ("period_ms", integer(&TIMES, "how often it runs, in ms")),
+        ("deadline_ms", integer(&TIMES, "when it has to be done, in ms; its period")),
+        ("cost_us", integer(&COSTS, "how long it computes, in µs")),
+        ("serves", text("the option of missions that needs it")),
+    ];
+    table(&[], &can, "a program")
+}
+
+fn observer() -> Value {
+    let flags = with(names("the flags that it raises"), "maxItems", MAX_FLAGS.into());
+    let can = [
+        ("title", text("what it looks at")),
+        ("needs", names("hardware and modules without which it sees nothing")),
+    ];
+    table(&[("flags", with(flags, "minItems", 1.into()))], &can, "who sees failures")
+}
+
+fn operator() -> Value {
+    table(&[("needs", names("the modules by which he is reached"))], &[], "who can be asked")
+}
+
+fn supervisors() -> Value {
+    let local = text("a net in JSON in place of the local supervisor, as a path from this file");
+    table(&[("local", local)], &[], "nets of one's own in place of those that are made")
+}
+
+fn configuration() -> Value {
+    let needs = [
+        ("name", id("its name")),
+        ("sub_objective", id("the part of a drive that it serves")),
+        ("mode", choice(&MODES, "whose part it is")),
+        ("required", with(names("modules that it needs"), "minItems", 1.into())),
+    ];
+    let can = [
+        ("optional", names("modules that it uses where they work")),
+        ("rank", integer(&RANKS, "lower is better; the order of the file")),
+        ("speed_mm_s", integer(&SPEEDS, "how fast it goes, in mm/s; it stands")),
+        ("takes_ms", integer(&TIMES, "how long it takes where it stands, in ms; 1,000")),
+    ];
+    table(&needs, &can, "modules that serve a part of a drive")
+}
+
+fn failure() -> Value {
+    let severity = |meaning: &str| choice(&SEVERITIES, meaning);
+    let severity = table(
+        &[("autonomous", severity("while the robot drives by itself"))],
+        &[("operator", severity("while the operator leads it; the same"))],
+        "how severe it is",
+    );
+    let restart = [
+        ("module", text("the module that is started anew")),
+        ("times", integer(&RESTARTS, "how often, before anything counts as lost")),
+    ];
+    let needs = [
+        ("id", id("its short name")),
+        ("mode", text("what fails, and how")),
+        ("severity", severity),
+    ];
+    let motions = MOTIONS.map(|it| it.0);
+    let can = [
+        ("function", text("the function that is lost")),
+        ("item", text("the part that fails")),
+        ("cause", text("why")),
+        ("effect", text("what comes of it")),
+        ("persistence", choice(&PERSISTENCES, "how long it stays; `\"permanent\"`")),
+        ("each", names("modules: one failure for each")),
+        ("flags", names("the flags that it raises always")),
+        ("sometimes", names("the flags that it may raise")),
+        ("unseen", text("why no flag shows it")),
+        ("latency_ms", integer(&TIMES, "how long observers take to see it, in ms")),
+        ("loses", names("hardware and modules that are lost with it")),
+        ("motion", choice(&motions, "what it does to the motion of a mission")),
+        ("slowed_permille", integer(&SLOWED, "or the part of the speed that it leaves")),
+        ("ends_ms", integer(&TIMES, "after so long it is over, in ms")),
+        ("helped", flag("whether it is over when the operator has helped")),
+        ("restart", table(&restart, &[], "a module that is started anew first")),
+        (
+            "mean_hours",
+            json!({
+                "type": "number", "exclusiveMinimum": 0,
+                "description": "the mean hours between two of them",
+            }),
+        ),
+    ];
+    table(&needs, &can, "a row of the FMECA")
+}

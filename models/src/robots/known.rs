@@ -1,0 +1,48 @@
+//! Numbers and words that a robot's file may have: for the reader, and for the schema of the file.
+
+use super::Motion;
+use std::ops::RangeInclusive;
+
+/// Value of `format` in files of robots.
+pub const FORMAT: &str = "cotama-robot/1";
+/// Times in ms, up to an hour.
+pub const TIMES: RangeInclusive<i64> = 1..=3_600_000;
+/// Times in µs, up to a minute.
+pub const COSTS: RangeInclusive<i64> = 1..=60_000_000;
+/// Speeds in mm/s, up to 10 m/s.
+pub const SPEEDS: RangeInclusive<i64> = 0..=10_000;
+/// Power in mW, up to 10 kW.
+pub const POWERS: RangeInclusive<i64> = 0..=10_000_000;
+/// Units of hardware.
+pub const UNITS: RangeInclusive<i64> = 1..=255;
+/// Ranks of configurations.
+pub const RANKS: RangeInclusive<i64> = 0..=255;
+/// How often a module is started anew.
+pub const RESTARTS: RangeInclusive<i64> = 1..=9;
+/// The most flags of an observer.
+pub const MAX_FLAGS: usize = 64;
+/// Modes of autonomy.
+pub const MODES: [&str; 2] = ["autonomous", "operator"];
+/// Severities.
+pub const SEVERITIES: [&str; 4] = ["weak", "medium", "hard", "fatal"];
+/// Persistences of failures.
+pub const PERSISTENCES: [&str; 3] = ["permanent", "intermittent", "transient"];
+
+/// Masses in g, accelerations in mm/s², energies in mJ.
+pub const POSITIVE: RangeInclusive<i64> = 1..=1_000_000_000;
+/// Coefficients of the power of motion.
+pub const COEFFICIENTS: RangeInclusive<i64> = 0..=1_000_000_000;
+/// Speeds that a body can have, in mm/s.
+pub const BODY_SPEEDS: RangeInclusive<i64> = 1..=10_000;
+/// Periods of a control loop in ms.
+pub const PERIODS: RangeInclusive<i64> = 10..=1_000;
+/// Thousandths of the commanded speed that are left.
+pub const SLOWED: RangeInclusive<i64> = 1..=999;
+/// Effects of failures on motion, with their names.
+pub const MOTIONS: [(&str, Motion); 5] = [
+    ("blocked", Motion::Blocked),
+    ("runaway", Motion::Runaway),
+    ("dead", Motion::Dead),
+    ("silent", Motion::Silent),
+    ("mindless", Motion::Mindless),
+];
