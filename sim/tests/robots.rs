@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use cotama_core::units::{Millimetres, Millis};
+use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, embedded};
 use cotama_models::robots::{Decision, Moment, RobotFile};
 use cotama_sim::options::{FaultChoice, Options};
@@ -90,6 +91,19 @@ fn a_lost_localisation_algorithm_is_planned_around_as_well() {
     assert_eq!(plan.cause.text(&PATROL), "the pose by codes is astray (LOC2)");
     let rows = plan.rows(&PATROL);
     assert!(rows.iter().all(|it| !it.choice.contains("L2")), "{rows:?}");
+}
+
+#[test]
+fn the_operator_is_asked_when_no_plan_is_left() {
+    // Somebody stands in the way for longer than the limit leaves.
+    let patrol = PATROL.clone().with_limits([Some(500_000), None]).unwrap();
+    let text = "format = \"panorama-faults/1\"\n\
+        event = [{ x_mm = 1000, kind = \"obstacle\", delay_ms = 20000 }]\n";
+    let faults = Faults::parse("obstacle", text, &patrol).unwrap();
+    let run = Driven::new(&patrol).unwrap().run(&Script::of(&faults, &patrol)).unwrap();
+    let plan = row(&PATROL, "PLN1");
+    let told = run.conduct.iter().find(|it| it.failure == plan).unwrap();
+    assert_eq!((told.decided.unwrap().1, run.operator_requests), (Decision::Ask, 1));
 }
 
 #[test]

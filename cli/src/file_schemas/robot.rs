@@ -162,6 +162,7 @@ fn failure() -> Value {
         ("slowed_permille", integer(&SLOWED, "or the part of the speed that it leaves")),
         ("ends_ms", integer(&TIMES, "after so long it is over, in ms")),
         ("helped", flag("whether it is over when the operator has helped")),
+        ("no_plan", flag("whether it is that no plan keeps the limits of the mission")),
         ("restart", table(&restart, &[], "a module that is started anew first")),
         (
             "mean_hours",

@@ -120,7 +120,7 @@ pub(super) fn makes_sense(robot: &Robot, at: &Places, sink: &Sink) -> bool {
                 needs.hardware & it.loses.hardware != 0 || needs.modules & !available != 0
             },
         );
-        if blind && it.unseen.is_none() {
+        if blind && it.unseen.is_none() && !it.no_plan {
             let message =
                 format!("{} takes what each observer needs that would see it", quoted(&it.id));
             let help = "let an observer see it that does not need what is lost";

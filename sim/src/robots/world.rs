@@ -64,6 +64,8 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     watching: Watching<'m>,
     /// When transitions fired last, and which.
     last: (Millis, Vec<String>),
+    /// Whether it was told that no plan is left.
+    planless: bool,
     /// Whether nothing happened in the last period.
     calm: bool,
 }
@@ -126,6 +128,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             run,
             watching,
             last: (Millis(0), Vec::new()),
+            planless: false,
             calm: false,
         })
     }
@@ -241,20 +244,30 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         self.failures.end(self.robot, self.now, ends);
         self.calm &= due.is_empty();
         for it in due {
-            self.failures.fail(self.now, it.failure);
-            self.until.push(it.until);
-            self.run.conduct.push(Conduct {
-                failure: it.failure,
-                injected: self.now,
-                x: self.drive.x(),
-                detected: None,
-                taken_for: Vec::new(),
-                decided: None,
-                answered: None,
-                exposed: Millis(0),
-            });
-            self.record_failure(recording, it.failure);
+            self.begin(it.failure, it.until, recording);
         }
+    }
+
+    /// A failure begins.
+    fn begin<R: Recorder>(
+        &mut self,
+        failure: usize,
+        until: Option<Moment>,
+        recording: &mut Recording<'_, R>,
+    ) {
+        self.failures.fail(self.now, failure);
+        self.until.push(until);
+        self.run.conduct.push(Conduct {
+            failure,
+            injected: self.now,
+            x: self.drive.x(),
+            detected: None,
+            taken_for: Vec::new(),
+            decided: None,
+            answered: None,
+            exposed: Millis(0),
+        });
+        self.record_failure(recording, failure);
     }
 
     /// The configuration that runs.
@@ -339,8 +352,9 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         // 7.3.2).
         let at = self.progress();
         if !self.planning.needs_no_more(at, left) {
-            let _ = self.planning.plan(PlanCause::Failure(failure), at, left);
+            let planned = self.planning.plan(PlanCause::Failure(failure), at, left).is_ok();
             self.record_plans(recording);
+            self.has_plan(planned, recording);
         }
     }
 
@@ -354,8 +368,28 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             return;
         };
         let left = under.units(self.mission, self.known);
-        if self.planning.plan(PlanCause::Margin { axis }, at, left).is_ok() {
+        let planned = self.planning.plan(PlanCause::Margin { axis }, at, left).is_ok();
+        if planned {
             self.record_plans(recording);
         }
+        self.has_plan(planned, recording);
+    }
+
+    /// Tells the supervisors once that no plan is left, where the robot's file has a row for it
+    /// (Lambert et al. 2024, Section 7.2: who is asked then is not said; the row says it).
+    fn has_plan<R: Recorder>(&mut self, planned: bool, recording: &mut Recording<'_, R>) {
+        let was_told = std::mem::replace(&mut self.planless, !planned);
+        let row = self.robot.failures.iter().position(|it| it.no_plan);
+        let (false, false, Some(failure)) = (planned, was_told, row) else { return };
+        self.begin(failure, None, recording);
+        let begun = self.run.conduct.len();
+        if let Some(it) = self.run.conduct.last_mut() {
+            (it.detected, it.taken_for) = (Some(self.now), vec![failure]);
+        }
+        let reports = &self.robot.losses.reports;
+        let report = reports.iter().position(|it| it.failures.contains(&failure));
+        let cause = Cause(u16::try_from(begun).unwrap_or(u16::MAX));
+        self.untold.extend(report.map(|it| (it, cause)));
+        self.record_diagnosis(recording, &[begun - 1], &[], &[failure]);
     }
 }

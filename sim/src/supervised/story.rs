@@ -305,7 +305,11 @@ impl Point<'_> {
             [one] => format!("it is {one}"),
             several => format!("one of {}, not unique", several.join(", ")),
         };
-        Some(format!("after {}, {}: {taken}", self.since(it.t_us), it.flags.join(" and ")))
+        let flags = match &it.flags[..] {
+            [] => String::new(),
+            all => format!(", {}", all.join(" and ")),
+        };
+        Some(format!("after {}{flags}: {taken}", self.since(it.t_us)))
     }
 
     /// Returns the decision, with its reason; `None` but for failures on which something was

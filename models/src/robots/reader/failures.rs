@@ -52,14 +52,24 @@ fn failure(mut fields: Fields<'_>, names: &Names) -> Option<Failure> {
         }),
         Err(_) => None,
     };
+    let no_plan = fields.optional_flag("no_plan");
     let unseen = fields.optional_text("unseen");
     let flags = match &unseen {
+        _ if no_plan == Ok(Some(true)) => fields.optional_texts("flags").ok(),
         Ok(Some(_)) => fields.optional_texts("flags").ok(),
         _ => fields.texts("flags"),
     };
     let flags = flags.and_then(|all| self::flags(&fields, &all, names));
     let sometimes = fields.optional_texts("sometimes").ok();
     let sometimes = sometimes.and_then(|all| self::flags(&fields, &all, names));
+    if let (Ok(Some(true)), Some(true)) = (&no_plan, flags.as_ref().map(|it| !it.is_empty())) {
+        let it = Diagnostic::new(
+            fields.span_of("no_plan"),
+            "the planner tells this, no flag",
+            "and `flags` too",
+        );
+        fields.report(it.help("leave out `no_plan` or `flags`"));
+    }
     if let (Ok(Some(it)), Some(true)) = (&unseen, flags.as_ref().map(|it| !it.is_empty())) {
         let message = "a failure that flags show is seen";
         let it = Diagnostic::new(it.span.clone(), message, "and `flags` too");
@@ -110,6 +120,7 @@ fn failure(mut fields: Fields<'_>, names: &Names) -> Option<Failure> {
         motion: motion?,
         ends: ends.ok()?.map(Millis),
         helped: helped.ok()?.unwrap_or(false),
+        no_plan: no_plan.ok()?.unwrap_or(false),
         restarts,
         mean_mh: mean?,
         source,
