@@ -71,12 +71,18 @@ fn arcs(places: &[&str]) -> Value {
     places.iter().map(|it| json!({ "place": it, "weight": 1 })).collect()
 }
 
+fn place(name: &str, initial: u32, role: &Value) -> Value {
+    let own = json!({ "name": name, "doc": "", "initial": initial });
+    let mut place = json!({ "bound": 1, "role": role });
+    place.as_object_mut().unwrap().extend(own.as_object().unwrap().clone());
+    place
+}
+
 /// The made supervisor, which grasps again when the first grasp slips before it asks anybody.
 fn grasps_again(mut net: Value) -> Value {
-    let place = |name: &str, initial: u32, role: Value| json!({ "name": name, "doc": "", "initial": initial, "bound": 1, "role": role });
     let places = net["places"].as_array_mut().unwrap();
-    places.push(place("slipped", 0, json!("data")));
-    places.push(place("!slipped", 1, json!({ "complement": "slipped" })));
+    places.push(place("slipped", 0, &json!("data")));
+    places.push(place("!slipped", 1, &json!({ "complement": "slipped" })));
     let lines = net["transitions"].as_array_mut().unwrap();
     let ask = lines.iter().position(|it| it["name"] == "ask_Grasp").unwrap();
     let line = |name: &str, change: &dyn Fn(&mut Value)| {

@@ -303,7 +303,7 @@ pub struct Failure {
     pub ends: Option<Millis>,
     /// Whether it is over when the operator has helped.
     pub helped: bool,
-    /// Whether it is that no plan is left that keeps the limits of the mission: the planner tells it.
+    /// Whether it is that no plan keeps the limits of the mission: the planner tells it.
     pub no_plan: bool,
     /// How often a module is started anew before anything counts as lost.
     pub restarts: Option<Restarts>,

@@ -6,7 +6,7 @@ use crate::robots::known::{BODY_SPEEDS, COEFFICIENTS, MOTIONS, PERIODS, POSITIVE
 use crate::robots::{Body, Motion};
 use cotama_core::units::{Millijoules, MillimetresPerSecond, Millis};
 
-/// The period of a control loop where nothing is said (stated for the delivery: below 0.1 s a loop).
+/// The period of a control loop where nothing is said (stated of the delivery: below 0.1 s).
 const PERIOD: Millis = Millis(100);
 
 pub(super) fn body(mut fields: Fields<'_>) -> Option<Body> {

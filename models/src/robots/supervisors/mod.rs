@@ -3,7 +3,7 @@
 //! | net | is made of |
 //! | --- | --- |
 //! | `gs`, global supervisor: one drive after another, or security | nothing: all have the same |
-//! | `ls`, local supervisor: sub-objectives, and the operator | sub-objectives, in order; or a net of one's own |
+//! | `ls`, local supervisor | sub-objectives, in their order; or a net of one's own |
 //! | adapters, named after the sub-objectives that have several configurations | ranks, losses |
 //! | `permit`, the permit to move | nothing: [`permit`] |
 //! | `gom`, observation: known losses, restarts | failures |
