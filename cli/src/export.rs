@@ -44,7 +44,7 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
     let style = args.style.unwrap_or(DrawnAs::Auto);
     let name = &args.model.model;
     let text = match (model::find(name)?, args.semantics) {
-        (Found::System(_) | Found::Robot(_), None)
+        (Found::System(_) | Found::Owned(_), None)
             if format == Format::Svg && args.style.is_some() =>
         {
             let message = "--style: the drawing of a system is of its nets and what they say";
@@ -53,12 +53,14 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
             );
         }
         (Found::System(system), None) if format == Format::Svg => overview::write(system),
-        (Found::Robot(it), None) if format == Format::Svg => it.system.with(overview::write),
+        (Found::Owned(it), None) if format == Format::Svg => it.system.with(overview::write),
+        (Found::System(system), None) if format == Format::Json => json::write_system(system),
+        (Found::Owned(it), None) if format == Format::Json => it.system.with(json::write_system),
         (Found::System(system), semantics) => {
             let net = one_net(system, semantics.unwrap_or(Semantics::Rounds))?;
             written(&net.view().net(), format, style, screen)?
         }
-        (Found::Robot(it), semantics) => {
+        (Found::Owned(it), semantics) => {
             let semantics = semantics.unwrap_or(Semantics::Rounds);
             let net = it.system.with(|system| one_net(system, semantics))?;
             written(&net.view().net(), format, style, screen)?

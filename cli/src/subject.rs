@@ -56,7 +56,7 @@ impl Subject {
     fn found(name: &str, untimed: bool, semantics: Semantics) -> Result<Self, Failure> {
         let loaded = match model::find(name)? {
             Found::System(system) => return Self::of_system(name, system, semantics),
-            Found::Robot(it) => {
+            Found::Owned(it) => {
                 let subject = it.system.with(|system| Self::of_system(name, system, semantics))?;
                 return Ok(Self { required: it.requirements, ..subject });
             }

@@ -18,7 +18,8 @@ pub(super) fn compared(
     screen: &Screen,
 ) -> Result<Exit, Failure> {
     let of = asked::Of::mission(mission);
-    let settings = asked::settings(args, of, mission.source(), mission.robot().map(RobotFile::robot))?;
+    let settings =
+        asked::settings(args, of, mission.source(), mission.robot().map(RobotFile::robot))?;
     let supervised = mission.is_supervised();
     let rule = ("rule", Policy { planner: Some(Planner::Panorama), ..Policy::default() });
     let own = Planner::of(mission);
