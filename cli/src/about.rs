@@ -24,7 +24,7 @@ use clap::CommandFactory;
 use clap::builder::PossibleValuesParser;
 use clap_complete::Shell;
 use cotama_models::missions::embedded;
-use cotama_models::robots;
+use cotama_models::robots::supervisors;
 use cotama_verification::conform::LINE_SCHEMA;
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
@@ -35,7 +35,8 @@ use serde_json::Value;
 /// `cotama table`: the tables of a mission, or the supervisors of a robot, as Rust source.
 pub(crate) fn table(args: &MissionArg) -> Result<Exit, Failure> {
     if let Some(robot) = model::robot(&args.mission)? {
-        Screen::raw(robots::supervisors::system(&robot).to_rust().as_bytes())?;
+        let system = supervisors::system(&robot);
+        Screen::raw(supervisors::to_rust(&system).as_bytes())?;
         return Ok(Exit::Success);
     }
     let mission = mission::load(&args.mission)?;

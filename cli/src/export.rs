@@ -47,7 +47,7 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
     let found = model::find(name)?;
     let part = args.net.as_deref().map(|net| match &found {
         Found::System(it) => written_part(it, name, net, format, style, screen),
-        Found::Robot(it) => it.system.with(|it| written_part(it, name, net, format, style, screen)),
+        Found::Owned(it) => it.system.with(|it| written_part(it, name, net, format, style, screen)),
         _ => Err(Failure::new(format!("`{name}` is one net: --net is for systems"))
             .help("leave --net out")),
     });
@@ -76,7 +76,7 @@ fn whole(
 ) -> Result<String, Failure> {
     let name = &args.model.model;
     Ok(match (found, args.semantics) {
-        (Found::System(_) | Found::Robot(_), None)
+        (Found::System(_) | Found::Owned(_), None)
             if format == Format::Svg && args.style.is_some() =>
         {
             let message = "--style: the drawing of a system is of its nets and what they say";
@@ -85,12 +85,14 @@ fn whole(
             );
         }
         (Found::System(system), None) if format == Format::Svg => overview::write(system),
-        (Found::Robot(it), None) if format == Format::Svg => it.system.with(overview::write),
+        (Found::Owned(it), None) if format == Format::Svg => it.system.with(overview::write),
+        (Found::System(system), None) if format == Format::Json => json::write_system(system),
+        (Found::Owned(it), None) if format == Format::Json => it.system.with(json::write_system),
         (Found::System(system), semantics) => {
             let net = one_net(system, semantics.unwrap_or(Semantics::Rounds))?;
             written(&net.view().net(), format, style, screen)?
         }
-        (Found::Robot(it), semantics) => {
+        (Found::Owned(it), semantics) => {
             let semantics = semantics.unwrap_or(Semantics::Rounds);
             let net = it.system.with(|system| one_net(system, semantics))?;
             written(&net.view().net(), format, style, screen)?

@@ -18,6 +18,7 @@ pub(crate) enum Kind {
     /// A property file of the Model Checking Contest.
     Properties,
     JsonNet,
+    JsonSystem,
     Tina,
     Certificate,
     Trace,
@@ -34,8 +35,8 @@ pub(crate) enum Kind {
 }
 
 /// The kinds that hold a model.
-pub(crate) const MODELS: [Kind; 5] =
-    [Kind::Pnml, Kind::JsonNet, Kind::Tina, Kind::TeamAtWork, Kind::Robot];
+pub(crate) const MODELS: [Kind; 6] =
+    [Kind::Pnml, Kind::JsonNet, Kind::JsonSystem, Kind::Tina, Kind::TeamAtWork, Kind::Robot];
 /// So many bytes tell.
 const LOOKED_AT: usize = 64 << 10;
 
@@ -75,6 +76,7 @@ impl Kind {
     fn of_json(start: &str) -> Option<Self> {
         let schemas = [
             ("cotama/net/", Self::JsonNet),
+            ("cotama-system/", Self::JsonSystem),
             ("cotama-certificate/", Self::Certificate),
             ("cotama-trace/", Self::Trace),
             ("cotama/team-trace/", Self::TeamTrace),
@@ -105,6 +107,7 @@ impl Kind {
             Self::Pnml => "PNML, a net",
             Self::Properties => "a property file",
             Self::JsonNet => "a net in JSON",
+            Self::JsonSystem => "a system of nets in JSON",
             Self::Tina => "a net of TINA",
             Self::Certificate => "a certificate",
             Self::Trace => "a trace",
@@ -124,7 +127,7 @@ impl Kind {
         match self {
             Self::Mission => "`cotama new mission NAME` begins one",
             Self::Faults => "one in which nothing goes wrong is `format = \"panorama-faults/1\"`",
-            Self::Pnml | Self::JsonNet | Self::Tina => {
+            Self::Pnml | Self::JsonNet | Self::JsonSystem | Self::Tina => {
                 "`cotama models` lists those that come with the program"
             }
             Self::Properties => "a property a line, as `name: AG !(a & b)`",
@@ -146,7 +149,7 @@ impl Kind {
         match self {
             Self::Mission => format!("cotama plan {file}"),
             Self::Faults => format!("cotama run MISSION --faults {file}"),
-            Self::Pnml | Self::JsonNet | Self::Tina | Self::Robot => {
+            Self::Pnml | Self::JsonNet | Self::JsonSystem | Self::Tina | Self::Robot => {
                 format!("cotama check {file}")
             }
             Self::Properties => format!("cotama check MODEL --properties {file}"),
@@ -262,6 +265,7 @@ mod tests {
             ("\u{feff}<?xml version=\"1.0\"?>\n<pnml xmlns=\"..\">", Kind::Pnml),
             ("<?xml?><property-set>", Kind::Properties),
             ("{\n  \"schema\": \"cotama/net/1\"", Kind::JsonNet),
+            ("{\"schema\": \"cotama-system/1\"", Kind::JsonSystem),
             ("{\"schema\":\"cotama-certificate/1\",", Kind::Certificate),
             ("{\"schema\":\"cotama-trace/1\",", Kind::Trace),
             ("{\"schema\":\"cotama/team-trace/2\",", Kind::TeamTrace),

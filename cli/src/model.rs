@@ -9,14 +9,14 @@ use crate::names::{is_name, near, quoted};
 use crate::team::{self, Chosen, Protocol, Team};
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::net::{Known, TransitionId};
+use cotama_core::system::owned::OwnedSystem;
 use cotama_core::system::{Component, System};
 use cotama_models::nets;
 use cotama_models::robots::requirements::Requirement as RobotRequirement;
-use cotama_models::robots::supervisors::OwnedSystem;
 use cotama_models::robots::{self, Robot, RobotFile};
 use cotama_models::team::protocol::Requirement;
 use cotama_models::team::scenario::Scenario;
-use cotama_verification::formats::json::{self, JsonNetError};
+use cotama_verification::formats::json::{self, Wrong};
 use cotama_verification::pnml::{self, Imported, Limits, PnmlErrors};
 use cotama_verification::pt::Extras;
 use cotama_verification::tina;
@@ -93,14 +93,15 @@ pub(crate) enum Found {
     Time(TimeNet),
     /// Nets that work together.
     System(&'static System<'static>),
-    /// The supervisors of a robot, and what is required of them.
-    Robot(Box<Supervisors>),
+    /// Nets that work together, from a file.
+    Owned(Box<Owned>),
 }
 
-/// The supervisors that the file of a robot makes.
+/// A system from a file, or the supervisors that the file of a robot makes.
 #[derive(Debug)]
-pub(crate) struct Supervisors {
+pub(crate) struct Owned {
     pub(crate) system: OwnedSystem,
+    /// Requirements of a robot's supervisors.
     pub(crate) requirements: Vec<RobotRequirement>,
 }
 
@@ -108,7 +109,13 @@ impl From<&Robot> for Found {
     fn from(robot: &Robot) -> Self {
         let system = robots::supervisors::system(robot);
         let requirements = robots::requirements::of(robot);
-        Self::Robot(Box::new(Supervisors { system, requirements }))
+        Self::Owned(Box::new(Owned { system, requirements }))
+    }
+}
+
+impl From<OwnedSystem> for Found {
+    fn from(system: OwnedSystem) -> Self {
+        Self::Owned(Box::new(Owned { system, requirements: Vec::new() }))
     }
 }
 
@@ -126,7 +133,7 @@ pub(crate) fn with_system<T>(
 ) -> Result<T, Failure> {
     let (net, labels) = match find(name)? {
         Found::System(system) => return Ok(then(system, &Labels::default())),
-        Found::Robot(it) => return Ok(it.system.with(|it| then(it, &Labels::default()))),
+        Found::Owned(it) => return Ok(it.system.with(|it| then(it, &Labels::default()))),
         Found::Net(mut loaded) => {
             let labels = std::mem::take(&mut loaded.labels);
             (loaded.plain(name, "played")?, labels)
@@ -277,12 +284,15 @@ fn imported(path: &str, bytes: &[u8]) -> Result<Found, Failure> {
     Ok(Found::from(Loaded { extras, random, notes, ..loaded }))
 }
 
+/// A net or a system in JSON.
 fn own(path: &str, bytes: Vec<u8>) -> Result<Found, Failure> {
     let text = input::utf8(path, "a model", bytes)?;
-    match json::read(&text) {
-        Ok(net) => Ok(Found::from(Loaded::new(net, None))),
-        Err(error) => Err(refused(input::name(path), text, error)),
-    }
+    let read = if kind::is_of(&text, FileKind::JsonSystem) {
+        json::read_system(&text).map(Found::from)
+    } else {
+        json::read(&text).map(|it| Found::from(Loaded::new(it, None)))
+    };
+    read.map_err(|it| refused(input::name(path), text, it))
 }
 
 /// A net of TINA; one without any interval is a plain net, as in PNML.
@@ -332,16 +342,15 @@ pub(crate) fn played(path: &str, net: &TimeNet) -> Result<OwnedNet, Failure> {
     Ok(played)
 }
 
-fn refused(source: &str, text: String, error: JsonNetError) -> Failure {
-    match error {
-        JsonNetError::Json { line, column, what, help } => {
-            let errors = FileErrors::at(source, text, line, column, what);
-            match help {
-                Some(help) => errors.help(help).into(),
-                None => errors.into(),
-            }
-        }
-        other => Failure::of(source, other.to_string())
-            .help("`cotama export door --format json` shows how such a file looks"),
-    }
+fn refused(
+    source: &str,
+    text: String,
+    Wrong { line, column, message, help, .. }: Wrong,
+) -> Failure {
+    let errors = FileErrors::at(source, text, line, column, message);
+    let errors = match help {
+        Some(help) => errors.help(help),
+        None => errors,
+    };
+    errors.into()
 }

@@ -30,7 +30,7 @@ pub(crate) fn models(args: &ModelsArgs, screen: &Screen) -> Result<Exit, Failure
         Some(family) => (entry_row(&family), None),
         None => match model::find(name)? {
             Found::System(system) => (system_row(system), None),
-            Found::Robot(it) => (it.system.with(system_row), None),
+            Found::Owned(it) => (it.system.with(system_row), None),
             Found::Net(it) => {
                 let known = it.known;
                 let net = it.plain(name, "listed")?;

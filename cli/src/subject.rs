@@ -92,7 +92,7 @@ impl Subject {
     fn found(name: &str, untimed: bool, semantics: Semantics) -> Result<Self, Unmade> {
         let loaded = match model::find(name)? {
             Found::System(system) => return Self::of_system(name, system, semantics),
-            Found::Robot(it) => {
+            Found::Owned(it) => {
                 return match it.system.with(|system| Self::of_system(name, system, semantics)) {
                     Ok(subject) => Ok(Self { required: it.requirements, ..subject }),
                     Err(Unmade::TooLarge(large)) => Err(Unmade::TooLarge(

@@ -4,7 +4,7 @@ use super::checks::{is_place, is_span, text};
 use cotama_models::nets::door;
 use cotama_verification::certificate::{self, Certificate};
 use cotama_verification::conform::Recording;
-use cotama_verification::formats::json::{self, JsonNetError};
+use cotama_verification::formats::json::{self, Wrong};
 use cotama_verification::property::{self, Ids, PropertyError, Question, mcc};
 use cotama_verification::pt::Pt;
 use cotama_verification::{pnml, tina};
@@ -24,6 +24,9 @@ super::readers! {
     json: read_json, [
         "null", "[]", "{}", "\"places\":", "\"within\":", "\"on\":", "\"bound\":", "\"guard\":",
         "true", "\\u0000",
+    ];
+    systems: read_system, [
+        "null", "[]", "{}", "\"nets\":", "\"mail\": 1", "\"mailbox\":", "\"links\":", "\"a.b\"",
     ];
     properties: read_property, [
         "AG ", "EF ", "A ", "E ", " U ", "X ", "deadlock", "fireable(", "bounds(", " assuming ",
@@ -86,15 +89,28 @@ fn read_json(bytes: &[u8]) -> bool {
             assert_eq!(json::read(&json::write(&net.view().net())).as_ref(), Ok(&net));
             true
         }
-        Err(error) => {
-            if let JsonNetError::Json { line, column, .. } = error {
-                // The end of the text has no column; all else says where by names.
-                is_place(&text, line.max(1), column.max(1));
-            }
-            assert!(!error.to_string().is_empty());
-            false
-        }
+        Err(error) => is_wrong(&text, &error),
     }
+}
+
+fn read_system(bytes: &[u8]) -> bool {
+    let text = text(bytes);
+    match json::read_system(&text) {
+        Ok(system) => {
+            let again = json::read_system(&system.with(json::write_system));
+            assert_eq!(again.as_ref(), Ok(&system));
+            true
+        }
+        Err(error) => is_wrong(&text, &error),
+    }
+}
+
+/// Checks that a text is refused with its place.
+fn is_wrong(text: &str, error: &Wrong) -> bool {
+    // The end of the text has no column; all else says where by names.
+    is_place(text, error.line.max(1), error.column.max(1));
+    assert!(!error.to_string().is_empty());
+    false
 }
 
 /// The net that questions are about.

@@ -5,7 +5,7 @@ use crate::conformance::Draw;
 use crate::drawn::Drawn;
 use cotama_models::robots::Robot;
 use cotama_models::robots::requirements::{self, Requirement};
-use cotama_models::robots::supervisors::{OwnedSystem, system};
+use cotama_models::robots::supervisors::{OwnedSystem, system, to_rust};
 use cotama_verification::check::{Checker, Model, Options, Verdict};
 use cotama_verification::explicit::{Graph, Limits};
 use cotama_verification::flat::{Looks, Rounds, Size, rounds};
@@ -192,7 +192,7 @@ fn the_printed_supervisors_of_a_robot_compile_to_the_same_rounds() {
     let robot = Robot::parse("scout.toml", SCOUT).unwrap_or_else(|it| panic!("{it}"));
     let system = system(&robot);
     let stored = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/rounds/printed_robot.rs");
-    cotama_golden::compare(stored, &system.to_rust());
+    cotama_golden::compare(stored, &to_rust(&system));
     let size = |rounds: Rounds| {
         let pt = Pt::from(&rounds.net().unwrap().view().net());
         rounds.size(&Graph::new(&pt, &Limits::default(), &|_| ()).unwrap())

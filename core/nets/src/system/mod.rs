@@ -16,6 +16,8 @@ mod index;
 )]
 pub(crate) mod laws;
 mod macros;
+#[cfg(feature = "alloc")]
+pub mod owned;
 #[allow(clippy::large_types_passed_by_value, reason = "texts live while compiling")]
 pub(crate) mod source;
 #[cfg(all(test, feature = "alloc"))]

@@ -15,18 +15,20 @@
 
 mod cubes;
 mod draft;
+mod joined;
 mod nets;
 mod own;
-mod owned;
 mod rust_source;
 
+pub use cotama_core::system::owned::OwnedSystem;
 pub use own::ReadNet;
 pub(super) use own::defects;
-pub use owned::OwnedSystem;
+pub use rust_source::to_rust;
 
 use super::{Mode, Robot, SubObjective};
 use crate::cotama::permit;
 use cotama_core::net::owned::OwnedNet;
+use joined::Joined;
 use nets::{configuration, has_adapter, lost, parts};
 
 /// Returns a name as nets have it: letters, digits and `_`.
@@ -83,7 +85,7 @@ pub fn system(robot: &Robot) -> OwnedSystem {
     let (own, operator) = (parts(robot, Mode::Autonomous), parts(robot, Mode::Operator));
     let all: Vec<_> = own.iter().chain(&operator).collect();
     let doc = format!("The supervisors of {}, made from its file.", robot.name);
-    let mut system = OwnedSystem::new(&word(&robot.name), &doc);
+    let mut system = Joined::new(&word(&robot.name), &doc);
     system.net("gs", nets::global());
     system.net("ls", robot.local.clone().unwrap_or_else(|| nets::local(robot)));
     for it in all.iter().filter(|it| has_adapter(it.is)) {
@@ -133,11 +135,11 @@ pub fn system(robot: &Robot) -> OwnedSystem {
         }
     }
     shares(robot, &mut system, &all.iter().map(|it| it.name.as_str()).collect::<Vec<_>>());
-    system
+    system.done()
 }
 
 /// Binds what nets see of one another.
-fn shares(robot: &Robot, system: &mut OwnedSystem, all: &[&str]) {
+fn shares(robot: &Robot, system: &mut Joined, all: &[&str]) {
     // A local supervisor of the user's looks at what it likes.
     let sees = |place: &str| {
         robot.local.as_ref().is_none_or(|net| net.places.iter().any(|it| it.name == place))

@@ -8,20 +8,19 @@ use cotama_core::text::visible;
 use std::collections::BTreeSet;
 use std::fmt;
 
-impl OwnedSystem {
-    /// The system as Rust source that needs `cotama-core` alone: a module for each net, and one of
-    /// the name of the system.
-    ///
-    /// ```
-    /// use cotama_models::robots::{Robot, supervisors};
-    /// let source = supervisors::system(&Robot::shipped("transport").unwrap()).to_rust();
-    /// assert!(source.contains("restarts_LID1: 1 of 1,"));
-    /// let line = "LID1_restarts on flag_LID1 [restarts_LID1 >= 1]: Ready => Ready";
-    /// assert!(source.contains(line), "{source}");
-    /// ```
-    pub fn to_rust(&self) -> String {
-        Source(self).to_string()
-    }
+/// The system as Rust source that needs `cotama-core` alone: a module for each net, and one of
+/// the name of the system.
+///
+/// ```
+/// use cotama_models::robots::{Robot, supervisors};
+/// let system = supervisors::system(&Robot::shipped("transport").unwrap());
+/// let source = supervisors::to_rust(&system);
+/// assert!(source.contains("restarts_LID1: 1 of 1,"));
+/// let line = "LID1_restarts on flag_LID1 [restarts_LID1 >= 1]: Ready => Ready";
+/// assert!(source.contains(line), "{source}");
+/// ```
+pub fn to_rust(system: &OwnedSystem) -> String {
+    Source(system).to_string()
 }
 
 struct Source<'s>(&'s OwnedSystem);

@@ -1,23 +1,29 @@
 //! The members of the format, in the order in which they are written.
 
-use super::{JsonNetError, MAX_ARCS, SCHEMA, Whole, twice};
+mod defect;
+
+use super::name::{Misnamed, Name, meant};
+use super::{MAX_ARCS, SCHEMA, Whole};
 use cotama_core::net::owned::{
     OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition,
 };
 use cotama_core::net::{self, EventId, Law, Net, OutputId, PlaceId, Role};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::fmt::Display;
 
 /// A text, or a reference by name, that is written.
 #[derive(Serialize)]
 #[serde(untagged)]
 pub(super) enum Text<'n> {
     Name(&'n str),
+    /// A name of two parts.
+    Port(String),
     /// An id that the net does not have: a number, which is refused when it is read.
     Unknown(u32),
 }
 
-/// A net with texts and references of type `S`: [`Text`] when written, `String` when read.
+/// A net with texts and references of type `S`: [`Text`] when written, [`Name`] when read.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Document<S> {
@@ -194,65 +200,105 @@ impl<'n> Document<Text<'n>> {
 }
 
 /// The ids of the names of one list.
-struct Ids {
+pub(super) struct Ids {
     kind: &'static str,
     ids: BTreeMap<String, u32>,
 }
 
 impl Ids {
-    fn of<'a>(
+    pub(super) fn of<'a>(
         kind: &'static str,
-        names: impl Iterator<Item = &'a str> + Clone,
-    ) -> Result<Self, JsonNetError> {
-        if let Some(name) = twice(names.clone()) {
-            return Err(JsonNetError::Twice { kind, name: name.to_owned() });
+        names: impl Iterator<Item = &'a Name>,
+    ) -> Result<Self, Misnamed> {
+        let mut ids = BTreeMap::new();
+        for (name, id) in names.zip(0..) {
+            if ids.insert(name.text.clone(), id).is_some() {
+                let message = format!("two {kind}s are named `{}`", name.text);
+                return Err(Misnamed::new(name, message).help("give each a name of its own"));
+            }
         }
-        Ok(Self { kind, ids: names.map(str::to_owned).zip(0..).collect() })
+        Ok(Self { kind, ids })
     }
 
-    fn find(&self, name: &str, at: &dyn Fn() -> String) -> Result<u32, JsonNetError> {
-        let unknown = || JsonNetError::Unknown { at: at(), kind: self.kind, name: name.to_owned() };
-        self.ids.get(name).copied().ok_or_else(unknown)
+    fn find(&self, name: &Name, at: &dyn Display) -> Result<u32, Misnamed> {
+        self.ids.get(&name.text).copied().ok_or_else(|| {
+            let (kind, it) = (self.kind, &name.text);
+            let message = format!("{at} names the {kind} `{it}`, which the net does not have");
+            let near = meant(it, self.ids.keys().map(String::as_str));
+            match near {
+                Some(near) => Misnamed::new(name, message).help(near),
+                None => Misnamed::new(name, message),
+            }
+        })
     }
 }
 
-impl Document<String> {
-    pub(super) fn net(self) -> Result<OwnedNet, JsonNetError> {
-        if self.schema != SCHEMA {
-            return Err(JsonNetError::Schema { found: self.schema });
+/// Subject of an error.
+enum At<'a> {
+    Place(&'a Name),
+    Transition(&'a Name),
+    /// An entry of a list, from 0.
+    Entry(&'static str, usize),
+}
+
+impl Display for At<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Place(name) => write!(f, "place `{}`", name.text),
+            Self::Transition(name) => write!(f, "transition `{}`", name.text),
+            Self::Entry(list, number) => write!(f, "entry {} of `{list}`", number + 1),
+        }
+    }
+}
+
+impl Document<Name> {
+    /// The net, and where its places and transitions are named.
+    pub(super) fn net(self) -> Result<(OwnedNet, Named), Misnamed> {
+        if self.schema.text != SCHEMA {
+            let found = &self.schema.text;
+            let message = format!("`schema` is `{found}`, but a net has `{SCHEMA}`");
+            return Err(Misnamed::new(&self.schema, message));
         }
         let names = Names {
-            places: Ids::of("place", self.places.iter().map(|it| it.name.as_str()))?,
-            events: Ids::of("event", self.events.iter().map(|it| it.name.as_str()))?,
-            outputs: Ids::of("output", self.outputs.iter().map(|it| it.name.as_str()))?,
+            places: Ids::of("place", self.places.iter().map(|it| &it.name))?,
+            events: Ids::of("event", self.events.iter().map(|it| &it.name))?,
+            outputs: Ids::of("output", self.outputs.iter().map(|it| &it.name))?,
         };
-        let signals = |list: Vec<Signal<String>>| {
-            list.into_iter().map(|it| OwnedSignal { name: it.name, doc: it.doc }).collect()
+        let signals = |list: Vec<Signal<Name>>| {
+            let owned = |it: Signal<Name>| OwnedSignal { name: it.name.text, doc: it.doc.text };
+            list.into_iter().map(owned).collect()
         };
-        Ok(OwnedNet {
-            name: self.name,
-            doc: self.doc,
-            places: self
-                .places
-                .into_iter()
-                .map(|it| names.owned_place(it))
-                .collect::<Result<_, _>>()?,
+        let named = Named {
+            net: self.name.clone(),
+            places: self.places.iter().map(|it| it.name.clone()).collect(),
+            transitions: self.transitions.iter().map(|it| it.name.clone()).collect(),
+        };
+        let places = self.places.into_iter().map(|it| names.owned_place(it));
+        let transitions = self.transitions.into_iter().map(|it| names.transition(it));
+        let ignored = self.ignored.iter().enumerate().map(|it| names.ignored(it));
+        let laws = self.laws.iter().enumerate().map(|it| names.law(it));
+        let net = OwnedNet {
+            name: self.name.text,
+            doc: self.doc.text,
+            places: places.collect::<Result<_, _>>()?,
             events: signals(self.events),
             outputs: signals(self.outputs),
-            transitions: self
-                .transitions
-                .into_iter()
-                .map(|it| names.transition(it))
-                .collect::<Result<_, _>>()?,
-            ignored: self
-                .ignored
-                .iter()
-                .enumerate()
-                .map(|it| names.ignored(it))
-                .collect::<Result<_, _>>()?,
-            laws: self.laws.iter().enumerate().map(|it| names.law(it)).collect::<Result<_, _>>()?,
-        })
+            transitions: transitions.collect::<Result<_, _>>()?,
+            ignored: ignored.collect::<Result<_, _>>()?,
+            laws: laws.collect::<Result<_, _>>()?,
+        };
+        match net.view().net().defect() {
+            None => Ok((net, named)),
+            Some(it) => Err(defect::of_net(it, &named)),
+        }
     }
+}
+
+/// The names of a net that messages are about.
+pub(super) struct Named {
+    pub(super) net: Name,
+    pub(super) places: Vec<Name>,
+    pub(super) transitions: Vec<Name>,
 }
 
 struct Names {
@@ -262,43 +308,37 @@ struct Names {
 }
 
 impl Names {
-    fn place(&self, name: &str, at: &dyn Fn() -> String) -> Result<PlaceId, JsonNetError> {
+    fn place(&self, name: &Name, at: &dyn Display) -> Result<PlaceId, Misnamed> {
         self.places.find(name, at).map(PlaceId)
     }
 
-    fn owned_place(&self, it: Place<String>) -> Result<OwnedPlace, JsonNetError> {
+    fn owned_place(&self, it: Place<Name>) -> Result<OwnedPlace, Misnamed> {
         let role = match &it.role {
             RoleOf::State => Role::State,
             RoleOf::Data => Role::Data,
-            RoleOf::Complement(of) => {
-                Role::Complement(self.place(of, &|| format!("place `{}`", it.name))?)
-            }
+            RoleOf::Complement(of) => Role::Complement(self.place(of, &At::Place(&it.name))?),
             RoleOf::Shared => Role::Shared,
             RoleOf::Mailbox => Role::Mailbox,
         };
         let bound = it.bound.map_or(net::Place::UNBOUNDED, |it| it.0);
-        Ok(OwnedPlace { name: it.name, doc: it.doc, initial: it.initial.0, bound, role })
+        Ok(OwnedPlace { name: it.name.text, doc: it.doc.text, initial: it.initial.0, bound, role })
     }
 
-    fn arcs(
-        &self,
-        list: &[Arc<String>],
-        at: &dyn Fn() -> String,
-    ) -> Result<Vec<net::Arc>, JsonNetError> {
+    fn arcs(&self, list: &[Arc<Name>], at: &dyn Display) -> Result<Vec<net::Arc>, Misnamed> {
         if list.len() > MAX_ARCS {
-            return Err(JsonNetError::TooManyArcs { at: at() });
+            let message = format!("{at} has more than {MAX_ARCS} arcs");
+            return Err(Misnamed::about(list.first().map(|it| &it.place), message));
         }
-        let arc = |it: &Arc<String>| {
+        let arc = |it: &Arc<Name>| {
             Ok(net::Arc { place: self.place(&it.place, at)?, weight: it.weight.0 })
         };
         list.iter().map(arc).collect()
     }
 
-    fn transition(&self, it: Transition<String>) -> Result<OwnedTransition, JsonNetError> {
-        let at = || format!("transition `{}`", it.name);
-        let output = |name: &String| self.outputs.find(name, &at).map(OutputId);
-        let on =
-            it.on.as_deref().map(|name| self.events.find(name, &at).map(EventId)).transpose()?;
+    fn transition(&self, it: Transition<Name>) -> Result<OwnedTransition, Misnamed> {
+        let at = At::Transition(&it.name);
+        let output = |name: &Name| self.outputs.find(name, &at).map(OutputId);
+        let on = it.on.as_ref().map(|name| self.events.find(name, &at).map(EventId)).transpose()?;
         let (take, read, give) =
             (self.arcs(&it.take, &at)?, self.arcs(&it.read, &at)?, self.arcs(&it.give, &at)?);
         let emits = it.emits.iter().map(output).collect::<Result<_, _>>()?;
@@ -307,8 +347,8 @@ impl Names {
             .map(|it| net::Within { earliest: it.earliest.0, latest: it.latest.map(|it| it.0) });
         let (line, priority) = (it.line.0, it.priority.0);
         Ok(OwnedTransition {
-            name: it.name,
-            doc: it.doc,
+            name: it.name.text,
+            doc: it.doc.text,
             line,
             on,
             take,
@@ -320,11 +360,8 @@ impl Names {
         })
     }
 
-    fn ignored(
-        &self,
-        (position, it): (usize, &Ignored<String>),
-    ) -> Result<OwnedIgnored, JsonNetError> {
-        let at = || format!("entry {} of `ignored`", position + 1);
+    fn ignored(&self, (position, it): (usize, &Ignored<Name>)) -> Result<OwnedIgnored, Misnamed> {
+        let at = At::Entry("ignored", position);
         Ok(OwnedIgnored {
             event: self.events.find(&it.event, &at).map(EventId)?,
             place: self.place(&it.place, &at)?,
@@ -332,9 +369,9 @@ impl Names {
         })
     }
 
-    fn law(&self, (position, it): (usize, &LawOf<String>)) -> Result<OwnedLaw, JsonNetError> {
-        let at = || format!("entry {} of `laws`", position + 1);
-        let place = |name: &String| self.place(name, &at);
+    fn law(&self, (position, it): (usize, &LawOf<Name>)) -> Result<OwnedLaw, Misnamed> {
+        let at = At::Entry("laws", position);
+        let place = |name: &Name| self.place(name, &at);
         Ok(match it {
             LawOf::Invariant { sum, equals } => {
                 OwnedLaw::Invariant { sum: self.arcs(sum, &at)?, equals: equals.0 }
