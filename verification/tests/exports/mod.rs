@@ -268,32 +268,39 @@ fn odd_names_become_identifiers_and_stay_readable() {
     check_golden("odd.json", &json::write(&view.net()));
 }
 
-/// The message for the text of the door with one change.
-fn json_refusal(from: &str, to: &str) -> String {
+/// The error of the text of the door with one change, and its message.
+fn json_error(from: &str, to: &str) -> json::Wrong {
     let text = json::write(&nets::door().view().net());
     assert!(text.contains(from), "{from}");
-    json::read(&text.replacen(from, to, 1)).unwrap_err().to_string()
+    json::read(&text.replacen(from, to, 1)).unwrap_err()
+}
+
+fn json_refusal(from: &str, to: &str) -> String {
+    json_error(from, to).message
 }
 
 #[test]
 fn json_that_is_no_net_is_refused_with_the_reason() {
     assert_eq!(
         json_refusal("cotama/net/1", "cotama/net/2"),
-        "`schema` is `cotama/net/2`, but this reader knows only `cotama/net/1`"
+        "`schema` is `cotama/net/2`, but a net has `cotama/net/1`"
     );
     assert_eq!(
-        json_refusal("\"priority\": 10", "\"priority\": 1.5"),
+        json_error("\"priority\": 10", "\"priority\": 1.5").to_string(),
         "line 291, column 21: a whole number is needed here, not 1.5"
     );
     assert_eq!(
-        json_refusal("\"priority\": 0", "\"prioriti\": 0"),
+        json_error("\"priority\": 0", "\"prioriti\": 0").to_string(),
         "line 134, column 16: unknown key `prioriti`; known: `name`, `doc`, `line`, \
          `on`, `take`, `read`, `give`, `emits`, `within`, `priority`"
     );
-    assert_eq!(json_refusal("\"initial\": 1,", ""), "line 12, column 5: `initial` is missing");
+    assert_eq!(
+        json_error("\"initial\": 1,", "").to_string(),
+        "line 12, column 5: `initial` is missing"
+    );
     assert_eq!(
         json_refusal("\"name\": \"moving\"", "\"name\": \"closed\""),
-        "two places are named `closed`; give each a name of its own"
+        "two places are named `closed`"
     );
     assert_eq!(
         json_refusal("\"on\": \"press\"", "\"on\": \"pres\""),
@@ -339,6 +346,11 @@ fn json_that_is_no_net_is_refused_with_the_reason() {
         json_refusal("\"within\": null", "\"within\": { \"earliest\": 2, \"latest\": 1 }"),
         "transition `start` has an interval that ends before it begins, or after 4294967294 ms"
     );
+    let misnamed = json_error("\"on\": \"press\"", "\"on\": \"pres\"");
+    assert_eq!(misnamed.help.as_deref(), Some("did you mean `press`?"));
+    let text = json::write(&nets::door().view().net());
+    let line = text.lines().position(|it| it.contains("\"on\": \"press\"")).unwrap() + 1;
+    assert_eq!(misnamed.line, line);
     assert_eq!(json::read("").unwrap_err().to_string(), "line 1, column 1: the file is empty");
     assert_eq!(
         json::read(&"[".repeat(100_000)).unwrap_err().to_string(),
@@ -362,7 +374,7 @@ fn json_beyond_the_limits_is_refused() {
     }
     net.transition(transition).unwrap();
     let error = json::read(&json::write(&net.view().net())).unwrap_err();
-    assert_eq!(error.to_string(), "transition `t` has more than 1000 arcs");
+    assert_eq!(error.message, "transition `t` has more than 1000 arcs");
     net.transitions[0].give.pop();
     assert_eq!(json::read(&json::write(&net.view().net())), Ok(net));
 }
