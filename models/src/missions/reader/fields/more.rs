@@ -79,7 +79,7 @@ impl<'t> Fields<'t> {
         self.span.clone()
     }
 
-    /// [`tables`](Self::tables), with a limit of its own.
+    /// `tables`, with a limit of its own.
     pub fn tables_up_to(
         &mut self,
         key: &'static str,
