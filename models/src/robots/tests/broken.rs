@@ -335,3 +335,110 @@ fn each_cause_has_one_message_with_its_place_and_what_to_do() {
         assert_eq!(refused(from, to), format!("r.toml:{message} | help: {help}"));
     }
 }
+
+#[test]
+fn what_a_mission_needs_of_a_robot_is_read_as_strictly() {
+    let body = |rest: &str| {
+        format!("[body]\nspeed_max_mm_s = 9\nacceleration_mm_s2 = 9\n{rest}\n[hardware.base]")
+    };
+    let power = "motion_power = { c0 = 1, c1 = 1, c2 = 0 }";
+    let (hardware, speed, loses) = ("[hardware.base]", "speed_mm_s = 500", "loses = [\"lidar\"]");
+    let change = "change the value";
+    let cases = [
+        (
+            hardware,
+            format!("{hardware}\npower_mw = -1"),
+            "4:12: `power_mw` must be 0 to 10000000, not `-1`",
+            change,
+        ),
+        (
+            hardware,
+            format!("{hardware}\nunits = 0"),
+            "4:9: `units` must be 1 to 255, not `0`",
+            change,
+        ),
+        (
+            hardware,
+            body(power).replace("s = 9", "s = 0"),
+            "4:18: `speed_max_mm_s` must be 1 to 10000, not `0`",
+            change,
+        ),
+        (
+            hardware,
+            body("motion_power = { c0 = 1, c1 = 1 }"),
+            "6:16: missing key `c2` in `motion_power`",
+            "add `c2`",
+        ),
+        (
+            hardware,
+            body(&format!("impact_energy_max_mj = 3\n{power}")),
+            "6:24: the energy of an impact is that of a mass",
+            "add `mass_g`, or leave `impact_energy_max_mj` out",
+        ),
+        (
+            hardware,
+            body(&format!("period_ms = 5\n{power}")),
+            "6:13: `period_ms` must be 10 to 1000, not `5`",
+            change,
+        ),
+        (
+            speed,
+            "speed_mm_s = 20000".into(),
+            "23:14: `speed_mm_s` must be 0 to 10000, not `20000`",
+            change,
+        ),
+        (speed, "takes_ms = 0".into(), "23:12: `takes_ms` must be 1 to 3600000, not `0`", change),
+        (speed, "rank = 256".into(), "23:8: `rank` must be 0 to 255, not `256`", change),
+        (
+            loses,
+            format!("{loses}\nslowed_permille = 1000"),
+            "40:19: `slowed_permille` must be 1 to 999, not `1000`",
+            change,
+        ),
+        (
+            loses,
+            format!("{loses}\nends_ms = 0"),
+            "40:11: `ends_ms` must be 1 to 3600000, not `0`",
+            change,
+        ),
+        (
+            loses,
+            format!("{loses}\nhelped = 1"),
+            "40:10: `helped` must be `true` or `false`, not an integer",
+            change,
+        ),
+        (
+            loses,
+            format!("{loses}\nno_plan = true"),
+            "40:11: the planner tells this, no flag",
+            "leave out `no_plan` or `flags`",
+        ),
+        (
+            loses,
+            format!("{loses}\npersistence = \"long\""),
+            "40:15: unknown persistence `long`",
+            "known: permanent, intermittent, transient",
+        ),
+        (
+            "[operator]",
+            "[supervisors]\nlocal = 3\n[operator]".into(),
+            "17:9: `local` must be a string, not an integer",
+            change,
+        ),
+        (
+            "[operator]",
+            "[supervisors]\n[operator]".into(),
+            "16:1: missing key `local` in `supervisors`",
+            "add `local`",
+        ),
+        (
+            "[operator]",
+            "[supervisors]\nlocal = \"x\"\n[operator]".into(),
+            "17:9: no other file is read here",
+            "`cotama export ROBOT --net ls --format json` writes one",
+        ),
+    ];
+    for (from, to, message, help) in cases {
+        assert_eq!(refused(from, &to), format!("r.toml:{message} | help: {help}"));
+    }
+}
