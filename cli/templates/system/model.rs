@@ -1,4 +1,4 @@
-//! Prints the system for the program `cotama`:
+//! Prints the system as one net for the program `cotama`:
 //!
 //! ```text
 //! cargo run --example model > my-system.json
@@ -7,7 +7,11 @@
 //! ```
 
 use cotama_verification::formats::json;
+use cotama_verification::flat::flat;
 
 fn main() {
-    print!("{}", json::write_system(&my_system::my_system::SYSTEM));
+    match flat(&my_system::my_system::SYSTEM) {
+        Ok(net) => print!("{}", json::write(&net.view().net())),
+        Err(error) => eprintln!("the system is no net: {error}"),
+    }
 }
