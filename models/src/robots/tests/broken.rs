@@ -337,7 +337,7 @@ fn each_cause_has_one_message_with_its_place_and_what_to_do() {
 }
 
 #[test]
-fn what_a_mission_needs_of_a_robot_is_read_as_strictly() {
+fn keys_that_missions_need_are_read_as_strictly() {
     let body = |rest: &str| {
         format!("[body]\nspeed_max_mm_s = 9\nacceleration_mm_s2 = 9\n{rest}\n[hardware.base]")
     };
