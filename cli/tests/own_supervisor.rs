@@ -150,6 +150,17 @@ fn a_net_that_is_no_local_supervisor_is_refused_with_the_reason() {
     folder.write("local.json", lacks.to_string());
     refused("`local.json` is no local supervisor of this robot: it lacks the event `gs_abort`");
 
+    let mut timed = made.clone();
+    timed["transitions"][0]["within"] = json!({ "earliest": 1, "latest": 2 });
+    folder.write("local.json", timed.to_string());
+    refused("rounds have no time, and `start1` has an interval");
+
+    let mut wide = made.clone();
+    let places = wide["places"].as_array_mut().unwrap();
+    places.iter_mut().find(|it| it["name"] == "Waits").unwrap()["bound"] = json!(2);
+    folder.write("local.json", wide.to_string());
+    refused("`local.json` does not fit the other supervisors: ");
+
     // It waits for the operator with the permit to move.
     let mut moves = made;
     let lines = moves["transitions"].as_array_mut().unwrap();

@@ -15,6 +15,7 @@ use crate::missions::reader::fields::{Fields, Sink, document_of_either};
 use crate::missions::{Diagnostic, MissionErrors, Spanned};
 use crate::names::quoted;
 use cotama_core::net::owned::OwnedNet;
+use cotama_core::system::System;
 use cotama_core::units::{Micros, MillimetresPerSecond, Millis, Milliwatts};
 
 /// The time of what stands where nothing is said.
@@ -160,10 +161,15 @@ fn robot(mut fields: Fields<'_>, own: &mut ReadNet<'_>) -> Option<Robot> {
     if !sound::makes_sense(&robot, &names.at, sink) {
         return None;
     }
-    robot.local = match local {
-        Some(path) => Some(local_supervisor(&robot, &path, own, sink)?),
-        None => None,
-    };
+    let Some(path) = local else { return Some(robot) };
+    robot.local = Some(local_supervisor(&robot, &path, own, sink)?);
+    // What places hold and lines change is seen only where the net stands among the others.
+    if let Some(it) = supervisors::system(&robot).with(|it: &System<'_>| it.defect()) {
+        let message = format!("{} does not fit the other supervisors: {it}", quoted(&path.value));
+        let it = Diagnostic::new(path.span, message, "another interface");
+        sink.report(it.help("`cotama export ROBOT --net ls` shows the interface"));
+        return None;
+    }
     Some(robot)
 }
 

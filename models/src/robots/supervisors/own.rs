@@ -4,7 +4,7 @@ use super::nets;
 use crate::names::quoted;
 use crate::robots::Robot;
 use cotama_core::net::Role;
-use cotama_core::net::owned::{OwnedNet, OwnedPlace};
+use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 
 /// Reads the net that a robot's file names: its path as the file says it, or why there is none.
 pub type ReadNet<'r> = dyn FnMut(&str) -> Result<OwnedNet, String> + 'r;
@@ -39,6 +39,11 @@ pub(in crate::robots) fn defects(robot: &Robot, net: &OwnedNet) -> Vec<String> {
             )),
             Some(_) => {}
         }
+    }
+    let is_timed = |it: &&OwnedTransition| it.within.is_some();
+    for it in net.transitions.iter().filter(is_timed) {
+        let name = quoted(&it.name);
+        defects.push(format!("rounds have no time, and {name} has an interval"));
     }
     for it in net.events.iter().filter(|it| !made.events.iter().any(|of| of.name == it.name)) {
         defects.push(format!("nobody tells it {}", quoted(&it.name)));
