@@ -160,6 +160,8 @@ pub enum PlanCause {
     Back(Part),
     /// A failure of a robot's file, by its number, took something that the plan needs.
     Failure(usize),
+    /// What a loss of a robot's file, by its number, took works again.
+    Works(usize),
     /// The margins leave room for a better plan.
     Room,
 }
@@ -211,6 +213,11 @@ impl PlanCause {
             Self::Lost(part) => format!("{} lost", part.name()),
             Self::Back(part) => format!("{} back", part.name()),
             Self::Failure(it) => failure(mission, it),
+            Self::Works(it) => {
+                let losses = mission.robot().map(|it| &it.robot().losses.losses);
+                let name = losses.and_then(|all| all.get(it)).map_or("a part", |it| &it.name);
+                format!("{name} back")
+            }
             Self::Room => "room for a better plan".into(),
         }
     }

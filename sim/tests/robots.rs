@@ -123,6 +123,50 @@ fn nothing_fails_and_nobody_is_asked() {
     }
 }
 
+#[test]
+fn a_setting_slows_the_robot_while_its_failure_lasts_and_five_seconds_more() {
+    let when = Moment::At(Millis(20_000));
+    let injections = vec![Injection { when, failure: row(&SHIFT, "SLP1"), until: None }];
+    let mut records: Vec<Record> = Vec::new();
+    let script = Script { injections, ..Script::default() };
+    Driven::new(&SHIFT).unwrap().run_recorded(&script, Millis(100), &mut records).unwrap();
+    let speed_at = |t_ms: u64| {
+        let mut samples = records.iter().filter_map(|it| match it {
+            Record::Sample(it) if it.t_us == t_ms * 1_000 => Some(it.speed_mm_s),
+            _ => None,
+        });
+        samples.next().unwrap()
+    };
+    // It slips from 20.0 s to 23.0 s, at 70 % of what it is told: 60 % of 1.5 m/s.
+    assert_eq!([speed_at(19_900), speed_at(22_000), speed_at(26_000)], [1_500, 630, 900]);
+    // The last period in which it is seen is the one that ends at 23.0 s.
+    assert!(speed_at(27_900) == 900 && speed_at(28_200) > 900, "{:?}", speed_at(28_200));
+}
+
+#[test]
+fn a_loss_that_comes_back_is_used_again_by_the_next_start() {
+    // The camera comes back: its loss is transient here.
+    let robot = embedded_robot("transport").replace(
+        "flags = [\"depth_late\"]",
+        "persistence = \"transient\"\nends_ms = 20_000\nflags = [\"depth_late\"]",
+    );
+    let robot = RobotFile::parse("transport.toml", &robot).unwrap();
+    let shift = embedded::mission("shift").unwrap();
+    let mission = Mission::parse_under(shift.name, shift.text, Some(robot)).unwrap();
+    let run = failing(&mission, "CAM1", 30_000);
+    let robot = mission.robot().unwrap().robot();
+    let ran: Vec<_> = run.configurations.iter().filter_map(|it| it.1).collect();
+    let ran: Vec<_> = ran.iter().map(|it| robot.configurations[*it].name.as_str()).collect();
+    let drives: Vec<_> = ran.iter().filter(|it| it.starts_with("Follow")).collect();
+    assert_eq!(drives, [&"Follow.Full", &"Follow.Low", &"Follow.Full", &"Follow.Full"]);
+    let causes: Vec<_> = run.plans.iter().map(|it| it.cause.text(&mission)).collect();
+    assert_eq!(causes, ["start", "no depth image (CAM1)", "camera back"]);
+}
+
+fn embedded_robot(name: &str) -> String {
+    cotama_models::robots::embedded(name).unwrap().text.to_owned()
+}
+
 fn script() -> impl Strategy<Value = Script> {
     let failures = SHIFT.robot().unwrap().robot().failures.len();
     let when = prop_oneof![

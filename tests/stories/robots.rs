@@ -94,7 +94,7 @@ fn robots(seed: u64, count: usize, runs: u64) -> (u64, u64) {
 
 #[test]
 fn drawn_robots_do_what_was_checked_and_stop_in_time() {
-    let (ran, runs) = robots(3, 100, 20);
+    let (ran, runs) = robots(3, 120, 20);
     assert!(ran >= 20 && runs > 19 * ran, "{ran} {runs}");
 }
 

@@ -3,8 +3,9 @@
 use super::DRAFT;
 use super::parts::{choice, flag, id, integer, named, table, tables, text, with, word};
 use cotama_models::robots::known::{
-    BODY_SPEEDS, COEFFICIENTS, COSTS, FORMAT, MAX_FLAGS, MODES, MOTIONS, PERIODS, PERSISTENCES,
-    POSITIVE, POWERS, RANKS, RESTARTS, SEVERITIES, SLOWED, SPEEDS, TIMES, UNITS,
+    BODY_SPEEDS, COEFFICIENTS, COSTS, FORMAT, HOLDS, MAX_FLAGS, MAX_PARAMETERS, MODES, MOTIONS,
+    PERIODS, PERSISTENCES, POSITIVE, POWERS, RANKS, RESTARTS, SETTINGS, SEVERITIES, SLOWED, SPEEDS,
+    TIMES, UNITS, VALUES,
 };
 use cotama_models::robots::{MAX_CONFIGURATIONS, MAX_FAILURES, MAX_PARTS};
 use serde_json::{Value, json};
@@ -82,6 +83,15 @@ fn hardware() -> Value {
 }
 
 fn module() -> Value {
+    let needs = [("default", integer(&VALUES, "its value where nothing has failed"))];
+    let can = [
+        ("title", text("what it is")),
+        ("least", integer(&VALUES, "the least that it can be; 0")),
+        ("most", integer(&VALUES, "the most that it can be")),
+        ("cost_us", integer(&COSTS, "the time that each unit of it adds, in µs")),
+    ];
+    let parameters = named(&table(&needs, &can, "a number"), "numbers that can be set");
+    let parameters = with(parameters, "maxProperties", MAX_PARAMETERS.into());
     let can = [
         ("title", text("what it does")),
         ("hardware", names("hardware that it needs, all of it")),
@@ -90,6 +100,11 @@ fn module() -> Value {
         ("period_ms", integer(&TIMES, "how often it runs, in ms")),
         ("deadline_ms", integer(&TIMES, "when it has to be done, in ms; its period")),
         ("cost_us", integer(&COSTS, "how long it computes, in µs")),
+        (
+            "priority",
+            integer(&RANKS, "whose turn is first, 0 before all; by deadline among equals"),
+        ),
+        ("parameter", parameters),
         ("serves", text("the option of missions that needs it")),
     ];
     table(&[], &can, "a program")
@@ -137,8 +152,23 @@ fn failure() -> Value {
         "how severe it is",
     );
     let restart = [
-        ("module", text("the module that is started anew")),
+        ("module", text("the module that is started anew; of `each`, that one")),
         ("times", integer(&RESTARTS, "how often, before anything counts as lost")),
+    ];
+    let [module, times] = restart;
+    let restart = table(&[times], &[module], "a module that is started anew first");
+    let values = with(
+        json!({ "type": "object", "additionalProperties": integer(&VALUES, "the value") }),
+        "description",
+        "new values, as `\"MODULE.PARAMETER\" = 3`".into(),
+    );
+    let set = [
+        ("values", values),
+        ("speed_permille", integer(&SLOWED, "the part of the speed that it leaves")),
+        ("mode", choice(&MODES, "the mode in which it is slower; both")),
+        ("holds_ms", integer(&HOLDS, "how long it outlasts the failure, in ms; 5,000")),
+        ("mends", flag("whether the failure is over by it")),
+        ("times", integer(&SETTINGS, "how often it is tried before the failure is told")),
     ];
     let needs = [
         ("id", id("its short name")),
@@ -163,7 +193,8 @@ fn failure() -> Value {
         ("ends_ms", integer(&TIMES, "after so long it is over, in ms")),
         ("helped", flag("whether it is over when the operator has helped")),
         ("no_plan", flag("whether it is that no plan keeps the limits of the mission")),
-        ("restart", table(&restart, &[], "a module that is started anew first")),
+        ("restart", restart),
+        ("set", table(&[], &set, "a setting that answers it")),
         (
             "mean_hours",
             json!({

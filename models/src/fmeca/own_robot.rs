@@ -119,11 +119,17 @@ fn reaction(robot: &Robot, it: &Failure) -> String {
         Severity::Hard => "stop, ask the operator",
         Severity::Fatal => "end the mission",
     };
-    let Some(restarts) = it.restarts else { return then.to_owned() };
-    let module = robot.modules.get(restarts.module).map_or("", |it| it.name.as_str());
-    let times = match restarts.times {
+    let often = |times: u8| match times {
         1 => "once".to_owned(),
         times => format!("{times} times"),
     };
-    format!("start {module} anew {times}; then {then}")
+    let restart = it.restarts.map(|it| {
+        let module = robot.modules.get(it.module).map_or("", |it| it.name.as_str());
+        format!("start {module} anew {}; then ", often(it.times))
+    });
+    let set = it.sets.as_ref().map(|it| match it.times {
+        Some(times) => format!("set {} {}; then ", it.text(robot), often(times)),
+        None => format!("set {}; ", it.text(robot)),
+    });
+    format!("{}{}{then}", restart.unwrap_or_default(), set.unwrap_or_default())
 }

@@ -71,7 +71,7 @@ pub fn decide(robot: &Robot, report: usize, situation: Situation) -> Decision {
                     let runs = robot.running(lost) >> configuration & 1 == 1;
                     if report.loss.is_none() || runs {
                         Decision::Record
-                    } else if robot.best(sub_objective, lost, Some(configuration)).is_some() {
+                    } else if robot.next(configuration, lost).is_some() {
                         Decision::Adapt
                     } else {
                         ask()

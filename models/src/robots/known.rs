@@ -19,6 +19,14 @@ pub const UNITS: RangeInclusive<i64> = 1..=255;
 pub const RANKS: RangeInclusive<i64> = 0..=255;
 /// How often a module is started anew.
 pub const RESTARTS: RangeInclusive<i64> = 1..=9;
+/// How often a setting alone is the answer.
+pub const SETTINGS: RangeInclusive<i64> = 1..=9;
+/// Values of parameters of modules.
+pub const VALUES: RangeInclusive<i64> = 0..=1_000_000_000;
+/// How long a setting outlasts its failure, in ms.
+pub const HOLDS: RangeInclusive<i64> = 0..=3_600_000;
+/// The most parameters of a module.
+pub const MAX_PARAMETERS: usize = 16;
 /// The most flags of an observer.
 pub const MAX_FLAGS: usize = 64;
 /// Modes of autonomy.

@@ -20,6 +20,8 @@ pub enum Told {
     Reached(usize),
     /// A [report](super::Report), by its number.
     Report(usize),
+    /// What a [loss](super::Loss), by its number, took works again.
+    Back(usize),
     /// The operator chooses one of his sub-objectives, by its number.
     Chooses(usize),
     /// The operator is done with one of his sub-objectives, by its number.
@@ -153,8 +155,12 @@ impl<'r, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
         let restarted = outputs.iter().find_map(|it| it.strip_prefix("restart_"));
         let named = |it: &super::Module| Some(word(&it.name).as_str()) == restarted;
         let restarts = restarted.and_then(|_| self.robot.modules.iter().position(named));
+        let set = outputs.iter().find_map(|it| it.strip_prefix("set_"));
+        let reports = || self.robot.losses.reports.iter();
+        let sets = set.and_then(|set| reports().position(|it| word(&it.name) == set));
+        let tells = outputs.iter().any(|out| reports().any(|it| word(&it.name) == *out));
         let (net, transition) = (component.name, transition.name);
-        Some(Fired { net, transition, place, outputs, restarts })
+        Some(Fired { net, transition, place, outputs, restarts, sets, tells })
     }
 
     /// The player under the names.
@@ -180,6 +186,10 @@ pub struct Fired<'s> {
     pub outputs: Vec<&'s str>,
     /// The module that is started anew, by its number.
     pub restarts: Option<usize>,
+    /// The report, by its number, whose setting is made.
+    pub sets: Option<usize>,
+    /// Whether a report is told to the contextual supervisor.
+    pub tells: bool,
 }
 
 /// The net and the event that something is told by.
@@ -192,6 +202,10 @@ fn named(robot: &Robot, told: Told) -> (&'static str, String) {
         Told::Report(it) => {
             let name = robot.losses.reports.get(it).map_or_else(String::new, |it| word(&it.name));
             ("faults", format!("fail_{name}"))
+        }
+        Told::Back(it) => {
+            let name = robot.losses.losses.get(it).map_or_else(String::new, |it| word(&it.name));
+            ("faults", format!("works_{name}"))
         }
         Told::Chooses(it) => ("operator", format!("choose_{}", of(it))),
         Told::Done(it) => ("operator", format!("finish_{}", of(it))),
@@ -239,7 +253,7 @@ impl Robot {
     /// The sub-objectives of a mode that can be served after these losses, by number.
     pub fn served(&self, mode: Mode, lost: u32) -> impl Iterator<Item = usize> {
         let all = self.sub_objectives.iter().enumerate();
-        let all = all.filter(move |it| it.1.mode == mode && self.best(it.0, lost, None).is_some());
+        let all = all.filter(move |it| it.1.mode == mode && self.best(it.0, lost).is_some());
         all.map(|it| it.0)
     }
 

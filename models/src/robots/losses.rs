@@ -1,7 +1,7 @@
 //! Reports of failures, and the losses that make a difference.
 
 use super::supervisors::word;
-use super::{Failure, MAX_LOSSES, MAX_REPORTS, Mode, Parts, Restarts, Robot, members};
+use super::{Failure, MAX_LOSSES, MAX_REPORTS, Mode, Parts, Restarts, Robot, Setting, members};
 use crate::cotama::Severity;
 
 /// A loss that stays: the parts that are gone with a failure, as far as some configuration or the
@@ -12,6 +12,8 @@ pub struct Loss {
     pub name: String,
     /// The modules that cannot be used any more.
     pub modules: u64,
+    /// Whether it can come back: a failure that takes it does not stay.
+    pub returns: bool,
 }
 
 /// Report of a failure to the decisional level. Failures that take the same and are as severe
@@ -30,6 +32,8 @@ pub struct Report {
     pub operator: Severity,
     /// How often a module is started anew before it is told.
     pub restarts: Option<Restarts>,
+    /// The setting that answers it.
+    pub sets: Option<Setting>,
 }
 
 /// All reports and losses of a robot, and what is left after each set of losses.
@@ -62,6 +66,11 @@ pub(super) struct Left {
 }
 
 impl Report {
+    /// Whether it is told as soon as it is known, and nothing is tried before.
+    pub fn is_told_at_once(&self) -> bool {
+        self.restarts.is_none() && self.sets.as_ref().is_none_or(|it| it.times.is_none())
+    }
+
     /// How severe it is in a mode.
     pub const fn severity(&self, mode: Mode) -> Severity {
         match mode {
@@ -87,17 +96,20 @@ impl Losses {
                 let known = losses.iter().position(|loss| (loss.modules ^ gone) & relevant == 0);
                 known.unwrap_or_else(|| {
                     let name = name(robot, it, &losses);
-                    losses.push(Loss { name, modules: gone });
+                    losses.push(Loss { name, modules: gone, returns: false });
                     losses.len() - 1
                 })
             });
+            if let Some(loss) = loss.and_then(|it| losses.get_mut(it)) {
+                loss.returns |= it.can_be_over();
+            }
             if losses.len() > MAX_LOSSES {
                 return Err((at, TooMany::Losses));
             }
             let same = |report: &&mut Report| {
-                (report.loss, report.autonomous, report.operator, report.restarts)
-                    == (loss, it.autonomous, it.operator, it.restarts)
-                    && it.restarts.is_none()
+                (report.loss, report.autonomous, report.operator, &report.sets)
+                    == (loss, it.autonomous, it.operator, &it.sets)
+                    && (report.restarts, it.restarts) == (None, None)
             };
             match reports.iter_mut().find(same) {
                 Some(report) => report.failures.push(at),
@@ -108,6 +120,7 @@ impl Losses {
                     autonomous: it.autonomous,
                     operator: it.operator,
                     restarts: it.restarts,
+                    sets: it.sets.clone(),
                 }),
             }
             if reports.len() > MAX_REPORTS {
@@ -122,6 +135,12 @@ impl Losses {
     pub(super) fn after(&self, lost: u32) -> Left {
         debug_assert!((lost as usize) < self.left.len(), "losses of this robot");
         self.left.get(lost as usize).copied().unwrap_or_default()
+    }
+
+    /// Returns the losses that can come back, a bit each.
+    pub(super) fn returning(&self) -> u32 {
+        let all = self.losses.iter().enumerate().filter(|it| it.1.returns);
+        all.fold(0, |set, it| set | 1 << it.0)
     }
 
     /// Returns the set of all losses, a bit each.

@@ -49,7 +49,7 @@
 //!     at: Where::Runs { sub_objective: 0, configuration },
 //!     lost: 0b01, // the lidar, which the first report says
 //! };
-//! assert_eq!(robot.best(0, 0b01, None), Some(1)); // `Blind` is what is left
+//! assert_eq!(robot.best(0, 0b01), Some(1)); // `Blind` is what is left
 //! assert_eq!(decide(&robot, 0, running(0)), Decision::Adapt);
 //! assert_eq!(decide(&robot, 0, running(1)), Decision::Record);
 //! assert_eq!(decide(&robot, 1, running(1)), Decision::Stop);
@@ -59,6 +59,7 @@ mod decision;
 mod diagnosis;
 mod embedded;
 mod file;
+mod in_time;
 pub mod known;
 mod level;
 mod losses;
@@ -66,6 +67,7 @@ mod reached;
 mod reader;
 pub mod requirements;
 mod script;
+mod settings;
 mod sound;
 pub mod supervisors;
 #[cfg(test)]
@@ -79,6 +81,7 @@ pub use known::FORMAT;
 pub use level::{Fired, Global, Level, Told};
 pub use losses::{Loss, Losses, Report};
 pub use script::{Answer, Incident, IncidentKind, Moment};
+pub use settings::{Parameter, Setting, Value};
 
 use crate::cotama::{Persistence, Severity};
 use crate::missions::MotionPower;
@@ -204,8 +207,12 @@ pub struct Module {
     pub period: Option<Millis>,
     /// When it must be done after its release; the period where nothing else is said.
     pub deadline: Option<Millis>,
-    /// Its worst-case execution time.
+    /// Its worst-case execution time, without what its parameters cost.
     pub cost: Option<Micros>,
+    /// Whose turn is first, 0 before all; among equals the shorter deadline goes first.
+    pub priority: u8,
+    /// Numbers that can be set while it runs.
+    pub parameters: Vec<Parameter>,
     /// The option of missions that it serves, by its id; may be empty.
     pub serves: String,
     /// Source of what is said of it; may be empty.
@@ -307,6 +314,8 @@ pub struct Failure {
     pub no_plan: bool,
     /// How often a module is started anew before anything counts as lost.
     pub restarts: Option<Restarts>,
+    /// The setting that answers it.
+    pub sets: Option<Setting>,
     /// The mean time between two failures, in thousandths of an hour; `None` where nobody knows.
     pub mean_mh: Option<u64>,
     /// Source of what is said of it; may be empty.
@@ -323,6 +332,11 @@ pub struct Restarts {
 }
 
 impl Failure {
+    /// Whether it can end without a repair after the mission.
+    pub fn can_be_over(&self) -> bool {
+        self.helped || self.ends.is_some() || self.persistence != Persistence::Permanent
+    }
+
     /// How severe it is in a mode.
     pub const fn severity(&self, mode: Mode) -> Severity {
         match mode {
@@ -344,7 +358,7 @@ impl Parts {
 }
 
 /// The positions of the bits of a set.
-pub(crate) fn members(set: u64) -> impl Iterator<Item = usize> {
+pub fn members(set: u64) -> impl Iterator<Item = usize> {
     (0..64).filter(move |it| set >> it & 1 == 1)
 }
 
@@ -381,17 +395,21 @@ impl Robot {
         self.losses.after(lost).running
     }
 
-    /// Returns the best configuration of a sub-objective that can run after these losses, other
-    /// than one; `None` when none can.
-    pub fn best(
-        &self,
-        sub_objective: usize,
-        lost: u32,
-        other_than: Option<usize>,
-    ) -> Option<usize> {
+    /// Returns the best configuration of a sub-objective that can run after these losses; `None`
+    /// when none can.
+    pub fn best(&self, sub_objective: usize, lost: u32) -> Option<usize> {
         let running = self.running(lost);
         let mut all = self.sub_objectives.get(sub_objective)?.configurations.iter().copied();
-        all.find(|it| Some(*it) != other_than && running >> it & 1 == 1)
+        all.find(|it| running >> it & 1 == 1)
+    }
+
+    /// Returns the best configuration after one, in the order of ranks, that can run after these
+    /// losses: what the adapter takes in place of it. A better one that has come back is taken at
+    /// the next start, so that no failure makes it go back and forth.
+    pub fn next(&self, of: usize, lost: u32) -> Option<usize> {
+        let (running, it) = (self.running(lost), self.configurations.get(of)?);
+        let all = self.sub_objectives.get(it.sub_objective)?.configurations.iter().copied();
+        all.skip_while(|it| *it != of).skip(1).find(|it| running >> it & 1 == 1)
     }
 
     /// Whether the operator can be reached after these losses.
@@ -403,7 +421,7 @@ impl Robot {
     /// reached, and a configuration in which he decides can run.
     pub fn can_ask(&self, lost: u32) -> bool {
         let helps = |(at, it): (usize, &SubObjective)| {
-            it.mode == Mode::Operator && self.best(at, lost, None).is_some()
+            it.mode == Mode::Operator && self.best(at, lost).is_some()
         };
         self.reaches_operator(lost) && self.sub_objectives.iter().enumerate().any(helps)
     }

@@ -1,6 +1,6 @@
 //! Configurations that a robot comes to run, whatever fails and whatever the operator does.
 
-use super::{Decision, Mode, Robot, Situation, Where, decide};
+use super::{Decision, Mode, Robot, Situation, Where, decide, members};
 use std::collections::BTreeSet;
 
 /// Returns the configurations that run in some situation, a bit each: passes through all places of
@@ -39,7 +39,7 @@ fn after(robot: &Robot, report: usize, it: Situation) -> Option<Situation> {
         (Decision::Stop, _) => return None,
         (Decision::Ask, _) => Where::Waits,
         (Decision::Adapt, Where::Runs { sub_objective, configuration }) => {
-            let configuration = robot.best(sub_objective, lost, Some(configuration))?;
+            let configuration = robot.next(configuration, lost)?;
             Where::Runs { sub_objective, configuration }
         }
         (Decision::Record | Decision::Adapt, at) => at,
@@ -56,7 +56,7 @@ fn moves(robot: &Robot, it: Situation) -> Vec<Situation> {
         all.filter(move |it| it.1.mode == mode).map(|it| it.0)
     };
     let runs = |sub_objective| {
-        let best = robot.best(sub_objective, lost, None);
+        let best = robot.best(sub_objective, lost);
         best.map(|configuration| here(Where::Runs { sub_objective, configuration }))
     };
     let enter = |sub_objective: Option<usize>| {
@@ -68,7 +68,9 @@ fn moves(robot: &Robot, it: Situation) -> Vec<Situation> {
         of(Mode::Operator).filter(move |_| reached).filter_map(runs)
     };
     let first = of(Mode::Autonomous).next();
-    match it.at {
+    let returns = members(u64::from(lost & robot.losses.returning()));
+    let returns = returns.map(|loss| Situation { lost: lost & !(1 << loss), ..it });
+    let goes: Vec<_> = match it.at {
         Where::Rests => enter(first).into_iter().collect(),
         Where::Waits => chosen().collect(),
         Where::Runs { sub_objective, .. } => match robot.sub_objectives.get(sub_objective) {
@@ -85,5 +87,6 @@ fn moves(robot: &Robot, it: Situation) -> Vec<Situation> {
                 done.into_iter().collect()
             }
         },
-    }
+    };
+    goes.into_iter().chain(returns).collect()
 }

@@ -2,7 +2,9 @@
 
 mod body;
 mod failures;
+mod settings;
 
+use super::in_time;
 use super::known::{COSTS, FORMAT, MAX_FLAGS, MODES, POWERS, RANKS, SPEEDS, TIMES, UNITS};
 use super::losses::{Losses, TooMany};
 use super::sound::Places;
@@ -27,6 +29,7 @@ pub(super) struct Names {
     pub(super) hardware: Vec<String>,
     pub(super) modules: Vec<String>,
     pub(super) flags: Vec<String>,
+    pub(super) parameters: Vec<settings::Named>,
     /// The place of each module, configuration, flag and failure.
     pub(super) at: Places,
 }
@@ -87,6 +90,7 @@ fn robot(mut fields: Fields<'_>, own: &mut ReadNet<'_>) -> Option<Robot> {
     }
     let hardware: Vec<_> = hardware.into_iter().map(self::hardware).collect();
     let modules: Vec<_> = modules.into_iter().map(|it| module(it, &names)).collect();
+    names.parameters = settings::named(modules.iter().map(Option::as_ref));
     let observers = named(&mut fields, "observer", MAX_PARTS);
     let observers: Vec<_> = observers.into_iter().map(|it| observer(it, &mut names)).collect();
     let operator = fields.optional_table("operator").ok();
@@ -158,7 +162,7 @@ fn robot(mut fields: Fields<'_>, own: &mut ReadNet<'_>) -> Option<Robot> {
             return None;
         }
     };
-    if !sound::makes_sense(&robot, &names.at, sink) {
+    if !sound::makes_sense(&robot, &names.at, sink) || !in_time::is(&robot, &names.at, sink) {
         return None;
     }
     let Some(path) = local else { return Some(robot) };
@@ -280,6 +284,8 @@ fn module((name, fields): Named<'_>, names: &Names) -> Option<Module> {
     let period = fields.optional_integer("period_ms", TIMES);
     let deadline = fields.optional_integer("deadline_ms", TIMES);
     let cost = fields.optional_integer("cost_us", COSTS);
+    let priority = fields.optional_integer("priority", RANKS);
+    let parameters = settings::parameters(&mut fields);
     let serves = words(&mut fields, "serves");
     let source = words(&mut fields, "source");
     let (deadline, period) = (deadline.ok()?.map(Millis), period.ok()?.map(Millis));
@@ -298,6 +304,8 @@ fn module((name, fields): Named<'_>, names: &Names) -> Option<Module> {
         period,
         deadline: deadline.or(period),
         cost,
+        priority: priority.ok()?.unwrap_or(u8::MAX),
+        parameters: parameters?,
         serves,
         source,
     })

@@ -137,7 +137,7 @@ type Ask<'a> = dyn FnMut(String, String, Vec<Watch>, String) + 'a;
 /// Adds: a fatal report ends the mission; a hard one asks the operator, or ends it.
 fn severe(robot: &Robot, ask: &mut Ask<'_>) {
     let told = |least: Severity| {
-        let all = robot.losses.reports.iter().filter(|it| it.restarts.is_none());
+        let all = robot.losses.reports.iter().filter(|it| it.is_told_at_once());
         let severe = all.filter(|it| it.autonomous.min(it.operator) >= least);
         severe.map(|it| format!("gom.flag_{}.waiting", word(&it.name))).collect::<Vec<_>>()
     };

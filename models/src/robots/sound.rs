@@ -81,7 +81,7 @@ pub(super) fn makes_sense(robot: &Robot, at: &Places, sink: &Sink) -> bool {
     }
     let reached = reached::configurations(robot);
     for (number, it) in robot.configurations.iter().enumerate() {
-        let best = |lost| robot.best(it.sub_objective, lost, None) == Some(number);
+        let best = |lost| robot.best(it.sub_objective, lost) == Some(number);
         if !(0..=robot.losses.all()).any(best) {
             let message = format!(
                 "{} never runs: whatever is lost, a better one runs, or it cannot either",
@@ -136,6 +136,12 @@ pub(super) fn makes_sense(robot: &Robot, at: &Places, sink: &Sink) -> bool {
             let help = "start a module that needs what is lost, or leave `restart` out";
             wrong(span(), message, "does not help", help);
         }
+        let fatal = [it.autonomous, it.operator] == [Severity::Fatal; 2];
+        if fatal && it.sets.as_ref().is_some_and(|it| it.times.is_none()) {
+            let message = format!("{} ends the mission, and sets something", quoted(&it.id));
+            let help = "leave `set` out, or say with `times` how often it is tried first";
+            wrong(span(), message, "of no use", help);
+        }
         if it.autonomous == Severity::Hard && robot.operator.is_none() {
             let message = format!("{} is hard, and there is nobody to ask", quoted(&it.id));
             let help = "call it `fatal`, or add an `[operator]` and a configuration for him";
@@ -177,7 +183,10 @@ fn names(robot: &Robot, at: &Places, sink: &Sink) {
     }
     let restarts = robot.modules.iter().map(|it| format!("restart_{}", word(&it.name)));
     let own = ["refusal", "global_event", "local_event"].map(str::to_owned);
-    let mut told: BTreeSet<_> = restarts.map(|it| it.to_lowercase()).chain(own).collect();
+    let ids = robot.failures.iter().filter(|it| it.sets.is_some());
+    let sets = ids.map(|it| format!("set_{}", word(&it.id)));
+    let made = restarts.chain(sets).map(|it| it.to_lowercase());
+    let mut told: BTreeSet<_> = made.chain(own).collect();
     // A short name that is there twice is told apart from one that only looks so.
     let mut ids = BTreeSet::new();
     for (number, it) in robot.failures.iter().enumerate().filter(|it| ids.insert(&it.1.id)) {

@@ -251,7 +251,8 @@ impl Observed {
 /// each time that a module is started anew for it; told, decided and answered, a round each; and
 /// until the robot stands. A computer that is down sees nothing: the micro-controller stops then.
 fn allowed_ms(row: &row::Failure, body: &Body) -> u64 {
-    let times = 1 + row.restarts.map_or(0, |it| u64::from(it.times));
+    let sets = row.sets.as_ref().and_then(|it| it.times);
+    let times = 1 + row.restarts.map_or(0, |it| u64::from(it.times)) + u64::from(sets.unwrap_or(0));
     let seen = match row.motion {
         Motion::Mindless => row.latency.max(FIRMWARE_WATCHDOG),
         _ => row.latency,

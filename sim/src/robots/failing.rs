@@ -3,7 +3,7 @@
 use crate::body::{Drive, FIRMWARE_WATCHDOG, Motion};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::Persistence;
-use cotama_models::robots::{self, Mode, Parts, Robot, Where};
+use cotama_models::robots::{self, Mode, Parts, Robot, Setting, Where};
 
 /// A failure under way.
 #[derive(Clone, Copy, Debug)]
@@ -77,9 +77,35 @@ impl Failures {
         }
     }
 
+    /// A setting answers a failure of these rows: what it mends is over, and what it is only tried
+    /// on shows itself again.
+    pub(super) fn set(&mut self, of: &[usize], setting: &Setting) {
+        for it in self.all.iter_mut().filter(|it| !it.over && of.contains(&it.number)) {
+            it.over |= setting.mends;
+            if setting.times.is_some() {
+                (it.seen, it.found) = (Millis(0), false);
+            }
+        }
+    }
+
+    /// Whether observers see a failure of one of these rows now.
+    pub(super) fn is_seen(&self, of: &[usize]) -> bool {
+        self.all.iter().any(|it| it.found && !it.over && of.contains(&it.number))
+    }
+
     /// Returns the parts that are broken, known or not.
     pub(super) fn broken(&self, robot: &Robot) -> Parts {
         self.open(robot).fold(Parts::NONE, |all, it| all.union(it.1.loses))
+    }
+
+    /// Returns the losses of which something is broken, known or not, a bit each.
+    pub(super) fn broken_losses(&self, robot: &Robot) -> u32 {
+        if self.all.iter().all(|it| it.over) {
+            return 0;
+        }
+        let gone = !robot.available(self.broken(robot));
+        let all = robot.losses.losses.iter().enumerate().filter(|it| it.1.modules & gone != 0);
+        all.fold(0, |set, it| set | 1 << it.0)
     }
 
     /// Whether the computer is up.

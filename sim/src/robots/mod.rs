@@ -16,6 +16,7 @@
 //! assert_eq!((run.outcome, run.operator_requests), (Outcome::Completed, 0));
 //! ```
 
+mod adapted;
 mod failing;
 mod hindered;
 mod operator;

@@ -4,6 +4,7 @@
 //! lower their flags, which are diagnosed; the supervisors take a round and are told one thing. So
 //! a run is a run of the nets that were checked.
 
+use super::adapted::Adapted;
 use super::failing::Failures;
 use super::hindered::Hindered;
 use super::operator::Operator;
@@ -18,7 +19,7 @@ use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::Cause;
 use cotama_models::missions::Mission;
 use cotama_models::missions::tables::Rest;
-use cotama_models::robots::{Body, Global, Level, Moment, Parts, Robot, Where, diagnose};
+use cotama_models::robots::{Body, Global, Level, Moment, Parts, Robot, Told, Where, diagnose};
 use records::Recording;
 use std::collections::{BTreeSet, VecDeque};
 
@@ -48,8 +49,11 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     operator: Operator,
     /// The parts that are known to be lost.
     pub(super) known: Parts,
-    /// Reports that the supervisors were not told yet, with the failure that they go back to.
-    untold: VecDeque<(usize, Cause)>,
+    /// The failures that are known to have taken them.
+    known_rows: BTreeSet<usize>,
+    /// Reports and returns that the supervisors were not told yet, with the failure that they go
+    /// back to.
+    untold: VecDeque<(Told, Cause)>,
     /// The objective of the mission, and since when it is under way.
     pub(super) objective: usize,
     objective_since: Millis,
@@ -64,6 +68,8 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     watching: Watching<'m>,
     /// When transitions fired last, and which.
     last: (Millis, Vec<String>),
+    /// Settings that are made, and what has come back.
+    adapted: Adapted,
     /// Whether it was told that no plan is left.
     planless: bool,
     /// Whether nothing happened in the last period.
@@ -116,6 +122,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             hindered: Hindered::new(&script.events, &script.power_errors),
             operator: Operator::new(&script.answers),
             known: Parts::NONE,
+            known_rows: BTreeSet::new(),
             untold: VecDeque::new(),
             objective: 0,
             objective_since: Millis(0),
@@ -128,6 +135,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             run,
             watching,
             last: (Millis(0), Vec::new()),
+            adapted: Adapted::default(),
             planless: false,
             calm: false,
         })
@@ -174,11 +182,13 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let before = self.drive;
         self.calm = true;
         self.fail(recording);
+        self.adapted.see(self.robot, &self.failures, self.now);
         let happened = self.hindered.happen(self.now, self.drive.x());
         self.travel();
         self.calm &= self.drive.is_steady_since(&before, self.body.period);
         if self.failures.thinks(self.robot) {
             self.observe(recording);
+            self.return_what_works();
             if !happened.is_empty()
                 || self.now.0 / 1_000 != self.now.0.saturating_sub(self.body.period.0) / 1_000
             {
@@ -331,9 +341,9 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             let reports = &self.robot.losses.reports;
             let report = reports.iter().position(|it| it.failures.contains(&failure));
             if let Some(report) = report
-                && !self.untold.iter().any(|it| it.0 == report)
+                && !self.untold.iter().any(|it| it.0 == Told::Report(report))
             {
-                self.untold.push_back((report, cause));
+                self.untold.push_back((Told::Report(report), cause));
             }
         }
     }
@@ -343,6 +353,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let Some(row) = self.robot.failures.get(failure) else { return };
         let before = self.known;
         self.known = before.union(row.loses);
+        self.known_rows.insert(failure);
         let Some(under) = &self.mission.under else { return };
         if self.known == before || self.objective >= self.mission.objectives.len() {
             return;
@@ -355,6 +366,46 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             let planned = self.planning.plan(PlanCause::Failure(failure), at, left).is_ok();
             self.record_plans(recording);
             self.has_plan(planned, recording);
+        }
+    }
+
+    /// What was lost and works again for long enough is to be told.
+    fn return_what_works(&mut self) {
+        let reports = self.robot.losses.reports.iter();
+        let known = reports.filter(|it| it.failures.iter().any(|it| self.known_rows.contains(it)));
+        let known = known.filter_map(|it| it.loss).fold(0, |set, it| set | 1 << it);
+        for loss in self.adapted.back(self.robot, &self.failures, known, self.now) {
+            if !self.untold.iter().any(|it| it.0 == Told::Back(loss)) {
+                self.untold.push_back((Told::Back(loss), Cause(0)));
+                self.calm = false;
+            }
+        }
+    }
+
+    /// Plans with what works again.
+    pub(super) fn regain<R: Recorder>(&mut self, loss: usize, recording: &mut Recording<'_, R>) {
+        let reports = self.robot.losses.reports.iter().filter(|it| it.loss == Some(loss));
+        let rows: Vec<usize> = reports.flat_map(|it| it.failures.iter().copied()).collect();
+        self.known_rows.retain(|it| !rows.contains(it));
+        self.known = self
+            .known_rows
+            .iter()
+            .filter_map(|it| self.robot.failures.get(*it))
+            .fold(Parts::NONE, |all, it| all.union(it.loses));
+        // Only a plan that was made without it can be better with it.
+        let was_without = self.planning.made.iter().any(|it| match it.cause {
+            PlanCause::Failure(it) => rows.contains(&it),
+            _ => false,
+        });
+        let Some(under) = &self.mission.under else { return };
+        if !was_without || self.objective >= self.mission.objectives.len() {
+            return;
+        }
+        let (at, left) = (self.progress(), under.units(self.mission, self.known));
+        // Without a plan the one in force goes on.
+        if self.planning.plan(PlanCause::Works(loss), at, left).is_ok() {
+            self.planless = false;
+            self.record_plans(recording);
         }
     }
 
@@ -389,7 +440,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let reports = &self.robot.losses.reports;
         let report = reports.iter().position(|it| it.failures.contains(&failure));
         let cause = Cause(u16::try_from(begun).unwrap_or(u16::MAX));
-        self.untold.extend(report.map(|it| (it, cause)));
+        self.untold.extend(report.map(|it| (Told::Report(it), cause)));
         self.record_diagnosis(recording, &[begun - 1], &[], &[failure]);
     }
 }

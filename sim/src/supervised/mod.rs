@@ -15,6 +15,7 @@ mod conduct;
 mod monitor;
 pub mod operator;
 mod planted;
+mod rung;
 mod script;
 pub mod story;
 mod summary;

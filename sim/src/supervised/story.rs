@@ -5,6 +5,7 @@
 //! each failure, and what the operator does before the robot goes on alone. What he does until the
 //! goal belongs to the failure he was asked about.
 
+pub use super::rung::Rung;
 use crate::trace::Record;
 use crate::trace::supervised::{Configured, Decision, Diagnosis, Failure, Fired, Told};
 use cotama_models::cotama::{Class, FailureMode, Mode};
@@ -51,6 +52,8 @@ pub struct Chain<'t> {
     pub decision: Option<&'t Decision>,
     /// The transitions of the supervisors that acted first, all of one round.
     pub reaction: Vec<&'t Fired>,
+    /// The setting that was made first, if any.
+    pub set: Option<&'t Fired>,
     /// When the operator was asked about it, in µs.
     pub asked_us: Option<u64>,
     /// Words of the operator, if the robot did not go on alone after it.
@@ -59,40 +62,6 @@ pub struct Chain<'t> {
     pub planned_again: bool,
     /// For how long the robot moved without a module that it required, in ms.
     pub exposed_ms: u64,
-}
-
-/// How far up a reaction went, from the change of a number to the end of the mission: the first two
-/// and the fourth are levels of Durand et al. (TAROS 2010, Sections III.C and V.C), planning the
-/// rest again is that of Lambert et al. (J. Intell. Robot. Syst. 110, 2024, Section 7.3).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Rung {
-    /// A module goes on with other parameters.
-    Parameter,
-    /// Another set of modules serves the same activity.
-    Set,
-    /// Another activity: the operator is asked, or acts.
-    Activity,
-    /// The rest of the objectives is planned again.
-    Objective,
-    /// The mission is ended.
-    Mission,
-}
-
-impl Rung {
-    /// All, from the lowest.
-    pub const ALL: [Self; 5] =
-        [Self::Parameter, Self::Set, Self::Activity, Self::Objective, Self::Mission];
-
-    /// Returns the name.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Parameter => "parameter",
-            Self::Set => "set",
-            Self::Activity => "activity",
-            Self::Objective => "objective",
-            Self::Mission => "mission",
-        }
-    }
 }
 
 /// The points of a trace, in the order of time; none if it is not of a supervised run.
@@ -209,6 +178,11 @@ impl<'t> Story<'t> {
                         chain.asked_us = Some(it.t_us);
                     }
                 }
+                if it.sets.is_some()
+                    && let Some(chain) = it.cause.and_then(|it| self.chain(it))
+                {
+                    chain.set.get_or_insert(it);
+                }
                 let acts = !["gom", "cs", "permit"].contains(&it.net.as_str());
                 if let Some(chain) = it.cause.filter(|_| acts).and_then(|it| self.chain(it))
                     && chain.reaction.first().is_none_or(|first| first.t_us == it.t_us)
@@ -260,6 +234,7 @@ impl<'t> Chain<'t> {
             diagnosis: None,
             decision: None,
             reaction: Vec::new(),
+            set: None,
             asked_us: None,
             operator: Vec::new(),
             planned_again: false,
@@ -355,9 +330,14 @@ impl Point<'_> {
             (None, _) => "nothing runs any more".into(),
         });
         let Some(chain) = self.chain() else { return runs };
-        let first = chain.reaction.first()?;
-        let by: Vec<_> = chain.reaction.iter().map(|it| it.line()).collect();
+        let first = chain.reaction.first().copied().or(chain.set)?;
+        let by: Vec<_> = match &chain.reaction[..] {
+            [] => vec![first.line()],
+            all => all.iter().map(|it| it.line()).collect(),
+        };
         let runs = runs.unwrap_or_else(|| "the same modules run on".into());
+        let set = chain.set.and_then(|it| it.sets.as_deref());
+        let set = set.map_or_else(String::new, |it| format!(", with {it}"));
         let again = if chain.planned_again { "; the rest is planned again" } else { "" };
         let later = chain.asked_us.filter(|&it| it > first.t_us);
         let asked =
@@ -365,7 +345,7 @@ impl Point<'_> {
         let said: Vec<_> = chain.operator.iter().map(|it| said(answer(it))).collect();
         let said: String = said.iter().flat_map(|it| ["; ", it.as_str()]).collect();
         Some(format!(
-            "after {}, {}: {runs}{again}{asked}{said}",
+            "after {}, {}: {runs}{set}{again}{asked}{said}",
             self.since(first.t_us),
             by.join(" ")
         ))
@@ -390,6 +370,9 @@ impl Point<'_> {
             Some(_) => vec![Rung::Set],
             None => vec![],
         };
+        if chain.set.is_some() {
+            rungs.push(Rung::Parameter);
+        }
         if chain.planned_again {
             rungs.push(Rung::Objective);
         }

@@ -24,6 +24,9 @@ pub struct Fired {
     /// The failure that it goes back to; none for what the mission or the operator caused.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cause: Option<u16>,
+    /// The setting that is made, in words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sets: Option<String>,
 }
 
 impl Fired {

@@ -22,6 +22,10 @@ struct Failure {
     latency_ms: usize,
     /// Of [`MOTIONS`]; none beyond.
     motion: usize,
+    /// Of [`ENDS`]; none beyond.
+    ends: usize,
+    /// Of [`SETTINGS`]; none beyond.
+    sets: usize,
 }
 
 const SUB_OBJECTIVES: [(&str, &str); 4] =
@@ -34,6 +38,16 @@ const MOTIONS: [&str; 6] = [
     "motion = \"runaway\"",
     "motion = \"silent\"",
     "motion = \"mindless\"",
+];
+const ENDS: [&str; 3] = [
+    "persistence = \"transient\"\nends_ms = 4000",
+    "persistence = \"intermittent\"",
+    "helped = true",
+];
+const SETTINGS: [&str; 3] = [
+    "set = { speed_permille = 400 }",
+    "set = { speed_permille = 400, times = 1 }",
+    "set = { speed_permille = 400, times = 2, mends = true, holds_ms = 0 }",
 ];
 const SEVERITIES: [&str; 4] = ["weak", "medium", "hard", "fatal"];
 
@@ -75,6 +89,8 @@ impl Drawn {
             let motion = below(20);
             // A motor that runs away is fatal, or the file is refused.
             let severity = if motion == RUNS_AWAY { [3, 3] } else { severity };
+            let ends = if motion == 0 { ENDS.len() } else { below(6) };
+            let sets = if severity == [3, 3] { SETTINGS.len() } else { below(12) };
             failures.push(Failure {
                 hardware: if one || below(3) > 0 { vec![] } else { vec![below(hardware as u32)] },
                 modules: if one { vec![at] } else { vec![] },
@@ -82,6 +98,8 @@ impl Drawn {
                 restarts: below(6) == 0,
                 latency_ms: 100 + 100 * below(30),
                 motion,
+                ends,
+                sets,
             });
         }
         Self { hardware, modules, configurations, operator, failures }
@@ -132,6 +150,9 @@ impl Drawn {
             );
             let _ = writeln!(text, "latency_ms = {}", it.latency_ms);
             if let Some(it) = MOTIONS.get(it.motion) {
+                let _ = writeln!(text, "{it}");
+            }
+            for it in [ENDS.get(it.ends), SETTINGS.get(it.sets)].into_iter().flatten() {
                 let _ = writeln!(text, "{it}");
             }
             if it.restarts {

@@ -22,22 +22,25 @@ pub(super) fn failures(mut fields: Fields<'_>, names: &mut Names) -> Option<Vec<
         let all: Vec<_> = all.iter().map(|it| fields.index_of(it, "module", known())).collect();
         all.into_iter().collect::<Option<Vec<_>>>()
     });
-    let row = failure(fields, names);
+    let has_each = each.as_ref().is_none_or(|it| !it.is_empty());
+    let row = failure(fields, names, has_each);
     let count = each.as_ref().map_or(1, |it| it.len().max(1));
     names.at.failures.extend(std::iter::repeat_n(span, count));
-    let (row, each) = (row?, each?);
+    let ((row, times), each) = (row?, each?);
     if each.is_empty() {
         return Some(vec![row]);
     }
     let of = |module: usize| Failure {
         id: format!("{}.{}", row.id, names.modules.get(module).map_or("", |it| it)),
         loses: row.loses.union(Parts { hardware: 0, modules: 1 << module }),
+        restarts: row.restarts.or(times.map(|times| Restarts { module, times })),
         ..row.clone()
     };
     Some(each.into_iter().map(of).collect())
 }
 
-fn failure(mut fields: Fields<'_>, names: &Names) -> Option<Failure> {
+/// A row, and how often the module of each of its failures is started anew.
+fn failure(mut fields: Fields<'_>, names: &Names, has_each: bool) -> Option<(Failure, Option<u8>)> {
     let id = fields.id("id");
     let function = words(&mut fields, "function");
     let item = words(&mut fields, "item");
@@ -87,9 +90,10 @@ fn failure(mut fields: Fields<'_>, names: &Names) -> Option<Failure> {
     let ends = fields.optional_integer("ends_ms", TIMES);
     let helped = fields.optional_flag("helped");
     let restarts = match fields.optional_table("restart") {
-        Ok(it) => Some(it.map(|it| restart(it, names))),
+        Ok(it) => Some(it.map(|it| restart(it, names, has_each))),
         Err(_) => None,
     };
+    let sets = super::settings::setting(&mut fields, names);
     let mean = match fields.optional_number("mean_hours") {
         Ok(None) => Some(None),
         Ok(Some(it)) => mean(&fields, &it).map(Some),
@@ -97,12 +101,12 @@ fn failure(mut fields: Fields<'_>, names: &Names) -> Option<Failure> {
     };
     let source = words(&mut fields, "source");
     fields.finish();
-    let restarts = match restarts? {
-        Some(it) => Some(it?),
-        None => None,
+    let (restarts, own) = match restarts? {
+        Some(it) => it?,
+        None => (None, None),
     };
     let (autonomous, operator) = severity?;
-    Some(Failure {
+    let failure = Failure {
         id: id?.value,
         function,
         item,
@@ -122,9 +126,11 @@ fn failure(mut fields: Fields<'_>, names: &Names) -> Option<Failure> {
         helped: helped.ok()?.unwrap_or(false),
         no_plan: no_plan.ok()?.unwrap_or(false),
         restarts,
+        sets: sets.ok()?,
         mean_mh: mean?,
         source,
-    })
+    };
+    Some((failure, own))
 }
 
 /// The severity by mode; in that of the operator it is the same where nothing else is said.
@@ -159,11 +165,24 @@ fn mean(fields: &Fields<'_>, text: &Spanned<String>) -> Option<u64> {
     mean
 }
 
-fn restart(mut fields: Fields<'_>, names: &Names) -> Option<Restarts> {
-    let module = fields.text("module");
+/// A restart of the module that it names, or else, so often, of that of each failure of the row.
+fn restart(
+    mut fields: Fields<'_>,
+    names: &Names,
+    has_each: bool,
+) -> Option<(Option<Restarts>, Option<u8>)> {
     let known = || names.modules.iter().map(String::as_str);
-    let module = module.and_then(|it| fields.index_of(&it, "module", known()));
+    let module = if has_each && !fields.has("module") {
+        Some(None)
+    } else {
+        let module = fields.text("module");
+        module.and_then(|it| fields.index_of(&it, "module", known())).map(Some)
+    };
     let times = fields.integer("times", RESTARTS);
     fields.finish();
-    Some(Restarts { module: module?, times: times? })
+    let times = times?;
+    Some(match module? {
+        Some(module) => (Some(Restarts { module, times }), None),
+        None => (None, Some(times)),
+    })
 }

@@ -50,6 +50,11 @@ impl Line {
         self.goes(&not(flag), flag)
     }
 
+    /// A flag that is up goes down.
+    pub(super) fn lowers(self, flag: &str) -> Self {
+        self.goes(flag, &not(flag))
+    }
+
     pub(super) fn emits(mut self, output: impl Into<String>) -> Self {
         self.emits.push(output.into());
         self

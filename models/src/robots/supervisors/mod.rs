@@ -6,7 +6,7 @@
 //! | `ls`, local supervisor | sub-objectives, in their order; or a net of one's own |
 //! | adapters, named after the sub-objectives that have several configurations | ranks, losses |
 //! | `permit`, the permit to move | nothing: [`permit`] |
-//! | `gom`, observation: known losses, restarts | failures |
+//! | `gom`, observation: known losses, restarts, settings | failures |
 //! | `cs`, contextual supervisor | [`decide`](super::decide) |
 //! | `faults`, `operator`: the surroundings, for the checker | failures, sub-objectives |
 //!
@@ -124,6 +124,10 @@ pub fn system(robot: &Robot) -> OwnedSystem {
         let flag = format!("flag_{report}");
         system.mail(("gom", &report), ("cs", &report));
         system.mail(("faults", &flag), ("gom", &flag));
+    }
+    for it in robot.losses.losses.iter().filter(|it| it.returns) {
+        let back = format!("back_{}", word(&it.name));
+        system.mail(("faults", &back), ("gom", &back));
     }
     if robot.operator.is_some() {
         system.mail(("operator", "refusal"), ("cs", "refusal"));

@@ -88,7 +88,7 @@ enum Entry {
 
 /// Lines that start a sub-objective, or ask the operator where it cannot run, or give up.
 fn enter(robot: &Robot, net: &mut Draft, to: &Part<'_>, line: &dyn Fn(&str, &str) -> Line) {
-    let entry = |lost: u32| match robot.best(to.number, lost, None) {
+    let entry = |lost: u32| match robot.best(to.number, lost) {
         Some(_) => Entry::Starts,
         None if robot.can_ask(lost) => Entry::Asks,
         None => Entry::GivesUp,
@@ -169,7 +169,7 @@ pub(super) fn local(robot: &Robot) -> OwnedNet {
     for it in &operator {
         let others = operator.iter().filter(|other| other.number != it.number);
         let from = others.map(|it| it.name.as_str()).chain(["Waits"]);
-        let runs = |lost: u32| robot.best(it.number, lost, None).is_some();
+        let runs = |lost: u32| robot.best(it.number, lost).is_some();
         for from in from {
             let chosen = cubes(robot.losses.all(), 0, &runs);
             for (number, (cube, _)) in chosen.into_iter().filter(|it| it.1).enumerate() {
@@ -208,7 +208,7 @@ pub(super) fn adapter(robot: &Robot, of: &Part<'_>) -> OwnedNet {
     net.event("adapt", "The configuration that runs is not available any more.");
     net.event("start", "The sub-objective starts.");
     net.event("stop", "The sub-objective ends.");
-    let best = |lost: u32| robot.best(of.number, lost, None);
+    let best = |lost: u32| robot.best(of.number, lost);
     for (number, (cube, to)) in cubes(robot.losses.all(), 0, &best).into_iter().enumerate() {
         let Some(to) = to.map(|it| configuration(robot, it)) else { continue };
         let line = Line::on(format!("start{}", number + 1), "start").goes("Off", &to);
@@ -218,7 +218,7 @@ pub(super) fn adapter(robot: &Robot, of: &Part<'_>) -> OwnedNet {
         let from = configuration(robot, it);
         let next = |lost: u32| {
             let stays = robot.running(lost) >> it & 1 == 1;
-            if stays { None } else { robot.best(of.number, lost, Some(it)) }
+            if stays { None } else { robot.next(it, lost) }
         };
         for (number, (cube, to)) in cubes(robot.losses.all(), 0, &next).into_iter().enumerate() {
             let Some(to) = to.map(|it| configuration(robot, it)) else { continue };
@@ -246,14 +246,20 @@ pub(super) fn observation(robot: &Robot) -> OwnedNet {
         let mut line = Line::on(name.clone(), format!("flag_{name}")).goes("Ready", "Ready");
         if let Some(it) = report.restarts {
             let module = robot.modules.get(it.module).map_or("", |it| it.name.as_str());
-            let (left, spent) = (format!("restarts_{name}"), format!("restarted_{name}"));
             let doc = format!("How often {module} may still be started anew.");
-            net.store(&left, &spent, u32::from(it.times), &doc);
             let restart = format!("restart_{}", word(module));
-            net.output(&restart, "");
-            let first = Line::on(format!("{name}_restarts"), format!("flag_{name}"));
-            net.line(first.goes("Ready", "Ready").goes(&left, &spent).emits(restart));
-            line = line.when_at_least(&spent, u32::from(it.times));
+            let it = Tried { output: restart, done: "restarts", times: it.times, doc };
+            line = it.before(line, &mut net, &name);
+        }
+        if let Some(it) = &report.sets {
+            let set = format!("set_{name}");
+            line = if let Some(times) = it.times {
+                let doc = "How often a setting alone may still be the answer.".to_owned();
+                Tried { output: set, done: "sets", times, doc }.before(line, &mut net, &name)
+            } else {
+                net.output(&set, "");
+                line.emits(set)
+            };
         }
         let Some(loss) = report.loss else {
             net.line(line.emits(name));
@@ -262,13 +268,41 @@ pub(super) fn observation(robot: &Robot) -> OwnedNet {
         let flag = lost(robot, loss);
         let again = line.clone().when(&flag, true).emits(name.clone());
         net.line(line.raises(&flag).emits(name.clone()));
-        // Known already, but worse than what told of it.
+        // Known already, but worse than what told of it, or answered by a setting too.
         let worst = report.autonomous.max(report.operator);
-        if worst >= crate::cotama::Severity::Hard {
+        if worst >= crate::cotama::Severity::Hard || report.sets.is_some() {
             net.line(again.named(format!("{name}_again")));
         }
     }
+    for (number, it) in robot.losses.losses.iter().enumerate().filter(|it| it.1.returns) {
+        let (flag, back) = (lost(robot, number), format!("back_{}", word(&it.name)));
+        net.event(&back, &format!("{} works again.", it.name));
+        let line = Line::on(back.clone(), back).goes("Ready", "Ready");
+        net.line(line.lowers(&flag));
+    }
     net.done()
+}
+
+/// A reaction that is tried so many times before anything is told.
+struct Tried {
+    output: String,
+    done: &'static str,
+    times: u8,
+    doc: String,
+}
+
+impl Tried {
+    /// Tries it under the conditions of a line; returns the line with the condition that it was
+    /// tried as often as it may.
+    fn before(self, line: Line, net: &mut Draft, name: &str) -> Line {
+        let Self { output, done, times, doc } = self;
+        let (left, spent) = (format!("{done}_{name}"), format!("{done}_spent_{name}"));
+        net.store(&left, &spent, u32::from(times), &doc);
+        net.output(&output, "");
+        let first = line.clone().named(format!("{name}_{done}"));
+        net.line(first.goes(&left, &spent).emits(output));
+        line.when_at_least(&spent, u32::from(times))
+    }
 }
 
 fn told(robot: &Robot, failures: &[usize]) -> String {
@@ -349,9 +383,10 @@ pub(super) fn contextual(robot: &Robot) -> OwnedNet {
     net.done()
 }
 
-/// The surroundings of the supervisors: whatever can fail does, at any time, again and again.
+/// The surroundings of the supervisors: whatever can fail does, and what can come back does, at any
+/// time, again and again.
 pub(super) fn faults(robot: &Robot) -> OwnedNet {
-    let mut net = Draft::new("faults", "All failures, at any time.");
+    let mut net = Draft::new("faults", "All failures and returns, at any time.");
     net.place("Ready", 1, "Anything may fail.");
     for it in &robot.losses.reports {
         let name = word(&it.name);
@@ -359,6 +394,13 @@ pub(super) fn faults(robot: &Robot) -> OwnedNet {
         net.output(&format!("flag_{name}"), "");
         let line = Line::on(format!("fail_{name}"), format!("fail_{name}"));
         net.line(line.goes("Ready", "Ready").emits(format!("flag_{name}")));
+    }
+    for it in robot.losses.losses.iter().filter(|it| it.returns) {
+        let name = word(&it.name);
+        let (works, back) = (format!("works_{name}"), format!("back_{name}"));
+        net.event(&works, &format!("{} works again.", it.name));
+        net.output(&back, "");
+        net.line(Line::on(works.clone(), works).goes("Ready", "Ready").emits(back));
     }
     net.done()
 }

@@ -2,7 +2,7 @@
 
 use crate::robots::Robot;
 
-const FILE: &str = r#"format = "cotama-robot/1"
+pub(super) const FILE: &str = r#"format = "cotama-robot/1"
 name = "scout"
 [hardware.base]
 [hardware.lidar]
@@ -56,7 +56,7 @@ flags = ["stuck"]
 "#;
 
 /// The first error of the file with a text replaced, and what to do.
-fn refused(from: &str, to: &str) -> String {
+pub(super) fn refused(from: &str, to: &str) -> String {
     assert_eq!(FILE.matches(from).count(), 1, "{from}");
     let errors = Robot::parse("r.toml", &FILE.replace(from, to)).unwrap_err().to_string();
     errors.lines().take(2).map(str::trim).collect::<Vec<_>>().join(" | ")

@@ -1,4 +1,5 @@
 mod broken;
+mod settings;
 
 use super::supervisors::{OwnedSystem, system, word};
 use super::{Decision, EMBEDDED, Robot, Situation, Where, decide, embedded};
@@ -75,7 +76,7 @@ fn the_contextual_net_decides_as_the_function_in_every_situation() {
             }
         }
     }
-    assert_eq!(compared, 75_600);
+    assert_eq!(compared, 112_720);
 }
 
 #[test]
@@ -163,9 +164,19 @@ fn the_delivery_from_its_file_decides_as_its_rules_do() {
             };
             match (rules, own, at) {
                 _ if rules == own => same += 1,
-                // A setting of a module changes there; files of robots have no settings yet.
-                (Class::Adapter, Class::Record, Where::Runs { .. }) => {
-                    assert_eq!(report.loss, None, "{id} {at:?}");
+                // A setting of a module changes there, and as much of the speed is left.
+                (Class::Adapter, Class::Record, Where::Runs { sub_objective, .. }) => {
+                    let set = report.sets.as_ref().unwrap_or_else(|| panic!("{id} {at:?}"));
+                    let of = &robot.sub_objectives[sub_objective];
+                    let holds = set.mode.is_none_or(|it| it == of.mode);
+                    let rules = mode.rule().adjustment.map(|it| it.effect(situation.mode()).speed);
+                    if of.moves {
+                        assert_eq!(
+                            if holds { set.speed } else { 1_000 },
+                            rules.unwrap_or(1_000),
+                            "{id} {at:?}"
+                        );
+                    }
                     settings += 1;
                 }
                 // The operator is asked once.
@@ -174,5 +185,5 @@ fn the_delivery_from_its_file_decides_as_its_rules_do() {
             }
         }
     }
-    assert_eq!((same, settings, asked_already), (5_504, 380, 160));
+    assert_eq!((same, settings, asked_already), (6_756, 976, 160));
 }

@@ -71,6 +71,9 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let (speed, power) = self.planning.pace(self.activity(), runs);
         let allowed = runs.and_then(|it| self.robot.configurations.get(it)).map(|it| it.speed);
         let allowed = allowed.unwrap_or(MillimetresPerSecond(0));
+        let left =
+            u64::from(self.adapted.speed(self.robot, self.now, mode(self.robot, self.place)));
+        let allowed = MillimetresPerSecond(allowed.0 * left / 1_000);
         // Who drives by hand has no planned option.
         let by_hand = mode(self.robot, self.place) == Some(Mode::Operator);
         if by_hand {

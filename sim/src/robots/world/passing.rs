@@ -21,6 +21,9 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let mut most = until(Millis((self.now.0 / 1_000 + 1) * 1_000));
         most = most.min(until(LONGEST)).min(self.failures.unseen_for(self.robot, self.place));
         most = self.watching.late_at().map_or(most, |it| most.min(until(it)));
+        let returns = self.adapted.returns_at(self.robot, &self.failures);
+        let adapts = self.adapted.ends_at(self.robot, &self.failures, self.now);
+        most = returns.into_iter().chain(adapts).fold(most, |most, it| most.min(until(it)));
         let changes = self.failures.changes(self.robot, self.now);
         most = changes.map_or(most, |it| most.min(until(it)));
         let ends = self.failures.all.iter().zip(&self.until).filter(|it| !it.0.over);
@@ -64,6 +67,8 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         self.exposed_on(most);
         self.now.0 += self.body.period.0 * most;
         self.run.rounds += most;
+        let last = Millis(self.now.0.saturating_sub(self.body.period.0));
+        self.adapted.see(self.robot, &self.failures, last);
     }
 
     /// Whether the robot would go on at its speed for a period.

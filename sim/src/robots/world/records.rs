@@ -133,8 +133,14 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
                 transition: fired.transition.to_owned(),
                 place: fired.place.to_owned(),
                 cause: (cause.0 > 0).then_some(cause.0),
+                sets: self.setting(fired.sets).map(|it| it.text(self.robot)),
             })
         });
+    }
+
+    /// Returns the setting of a report.
+    fn setting(&self, report: Option<usize>) -> Option<&robots::Setting> {
+        self.robot.losses.reports.get(report?)?.sets.as_ref()
     }
 
     pub(super) fn record_decision<R: Recorder>(

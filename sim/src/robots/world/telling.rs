@@ -20,7 +20,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         self.run.rounds += 1;
         self.note_all(recording, &mut seen);
         let (told, cause) = match self.untold.pop_front() {
-            Some((report, cause)) => (Some(Told::Report(report)), cause),
+            Some((told, cause)) => (Some(told), cause),
             None => self.says(),
         };
         if let Some(told) = told {
@@ -28,6 +28,9 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             if self.level.tell(self.now, told, cause, &mut seen) {
                 self.run.told.push((self.run.rounds, told));
                 self.record_told(recording, told);
+                if let Told::Back(loss) = told {
+                    self.regain(loss, recording);
+                }
             }
         }
         self.note_all(recording, &mut seen);
@@ -125,7 +128,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let name = format!("{net}.{}", fired.transition);
         let (now, conduct) = (self.now, usize::from(cause.0).checked_sub(1));
         let said = fired.outputs.first().copied().unwrap_or("");
-        let restart = fired.restarts;
+        let (restart, sets, tells) = (fired.restarts, fired.sets, fired.tells);
         let decision = match said {
             "global_event" => Some(Decision::Stop),
             "local_event" => Some(Decision::Ask),
@@ -148,7 +151,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
                         it.decided = Some((now, decision));
                     }
                 }
-                "gom" if restart.is_none() => known = Some(it.taken_for.clone()),
+                "gom" if tells => known = Some(it.taken_for.clone()),
                 "gom" | "permit" => {}
                 _ => {
                     it.answered.get_or_insert(now);
@@ -165,6 +168,9 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         if let Some(module) = restart {
             self.failures.restart(self.robot, module);
         }
+        if let Some(report) = sets {
+            self.set(report);
+        }
         if asks {
             self.run.operator_requests += 1;
             self.record_request(recording, conduct);
@@ -175,6 +181,15 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         if done {
             self.advance();
         }
+    }
+
+    /// A setting answers a report.
+    fn set(&mut self, report: usize) {
+        let Some(report_of) = self.robot.losses.reports.get(report) else { return };
+        if let Some(setting) = &report_of.sets {
+            self.failures.set(&report_of.failures, setting);
+        }
+        self.adapted.set(report, self.now);
     }
 
     /// Notes where the supervisors have come to.

@@ -71,6 +71,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
                 transition: it.transition.clone(),
                 place: self.transition(it).map_or("", |(net, it)| place(net, it)).into(),
                 cause: (it.cause.0 > 0).then_some(it.cause.0),
+                sets: None,
             }));
         }
         done.fired = run.fired.len();
