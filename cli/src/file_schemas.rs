@@ -17,7 +17,7 @@ use cotama_models::missions::known::{
     OBJECTIVES, PER_KM, PERIODS, POSITIVE, POWER_ERRORS, QUALITIES, RANDOM_EVENTS, ROUNDINGS,
     SEARCHES, SPEEDS, UNITS, configurations,
 };
-use cotama_models::missions::{self, AXES, Does, Supervision, Task};
+use cotama_models::missions::{self, AXES, Supervision};
 use parts::{
     absent, both, choice, choices, flag, id, integer, named, only, says, table, tables, text, when,
     with, word,
@@ -191,15 +191,24 @@ fn needs_fixed(task: &str, what: &str) -> Value {
     when(&has, &json!({ "properties": { "fixed": { "required": keys } }, "required": ["fixed"] }))
 }
 
-/// The tasks that say themselves what they take.
-const STANDING: [&str; 3] = ["RCV", "DLV", "WAI"];
+/// The tasks whose options do not say what they take.
+const KNOWN: [&str; 4] = ["MOV", "TUR", "DET", "LOC"];
+
+/// The tasks.
+const TASKS: &str =
+    "`MOV`, `LOC`, `TUR`, `DET`, `RCV`, `DLV`, `WAI`, or one of your own in capitals";
+
+/// A task by its name.
+fn task_name(meaning: &str) -> Value {
+    with(text(meaning), "pattern", "^[A-Z][A-Z0-9_]{1,15}$".into())
+}
 
 fn tio() -> Value {
     let configurations: Vec<_> = configurations().map(Configuration::name).collect();
     let units = integer(&NEEDED_UNITS, "units of this hardware");
     let needs = [
         ("id", id("its name")),
-        ("task", choice(&Task::NAMES, "`MOV`, `LOC`, `TUR`, `DET`, `RCV`, `DLV` or `WAI`")),
+        ("task", task_name(TASKS)),
         ("needs", named(&units, "how many units of which hardware")),
     ];
     let can = [
@@ -212,17 +221,23 @@ fn tio() -> Value {
         ),
         (
             "duration_ms",
-            integer(&POSITIVE, "needed by `RCV`, `DLV` and `WAI`: how long it takes, in ms"),
+            integer(
+                &POSITIVE,
+                "needed by tasks but `MOV`, `LOC`, `TUR`, `DET`: how long it takes, in ms",
+            ),
         ),
         (
             "power_mw",
-            integer(&AT_LEAST_ZERO, "needed by `RCV`, `DLV` and `WAI`: what it takes, in mW"),
+            integer(
+                &AT_LEAST_ZERO,
+                "needed by tasks but `MOV`, `LOC`, `TUR`, `DET`: what it takes, in mW",
+            ),
         ),
     ];
     let own = ["duration_ms", "power_mw"];
     let moves = says("task", &["MOV"]);
     let rules = json!([
-        { "if": says("task", &STANDING), "then": { "required": own }, "else": absent(&own) },
+        { "if": says("task", &KNOWN), "then": absent(&own), "else": { "required": own } },
         { "if": moves, "then": true, "else": absent(&["configuration"]) },
     ]);
     with(table(&needs, &can, "a way to do a task"), "allOf", rules)
@@ -245,7 +260,10 @@ fn zone() -> Value {
 }
 
 fn objective() -> Value {
-    let tasks = choices(&Task::NAMES, "what is done at the same time, as `[\"MOV\", \"LOC\"]`");
+    let meaning = "what is done at the same time, as `[\"MOV\", \"LOC\"]`";
+    let tasks = json!({
+        "type": "array", "items": task_name(TASKS), "minItems": 1, "description": meaning,
+    });
     let ends = "where it ends, in mm; the same place where the robot stands";
     let needs = [
         ("id", id("its name")),
@@ -253,8 +271,9 @@ fn objective() -> Value {
         ("x_end_mm", integer(&AT_LEAST_ZERO, ends)),
         ("tasks", with(tasks, "uniqueItems", true.into())),
     ];
-    let meaning = "needed under supervision: `drive`, `receive`, `deliver` or `wait`";
-    let does = choice(&Does::NAMES, meaning);
+    let meaning = "needed under supervision: `drive`, `receive`, `deliver`, `wait`; or, with a robot \
+                   that has a file, a task of your own in small letters";
+    let does = with(text(meaning), "pattern", "^[a-z][a-z0-9_]{1,15}$".into());
     table(&needs, &[("does", does)], "a part of what is to be done")
 }
 

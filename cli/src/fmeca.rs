@@ -44,6 +44,7 @@ pub(crate) fn fmeca(args: &FmecaArgs, screen: &Screen) -> Result<Exit, Failure> 
         (_, Some(_)) => return Err(only_drawings(name(format))),
         (FmecaFormat::Csv, None) => analysis.to_csv(),
         (FmecaFormat::Md, None) => markdown::write(&answer()),
+        (FmecaFormat::Toml, None) => analysis.to_rows(),
         (FmecaFormat::Html, None) => page::write(&analysis, &answer()),
     };
     match &args.output {
@@ -129,6 +130,7 @@ fn by_name(path: &Path) -> Result<FmecaFormat, Failure> {
         Some("csv") => FmecaFormat::Csv,
         Some("html" | "htm") => FmecaFormat::Html,
         Some("svg") => FmecaFormat::Svg,
+        Some("toml") => FmecaFormat::Toml,
         _ => {
             let formats: Vec<_> =
                 FmecaFormat::value_variants().iter().map(|&it| name(it)).collect();
@@ -144,5 +146,6 @@ const fn name(format: FmecaFormat) -> &'static str {
         FmecaFormat::Csv => "csv",
         FmecaFormat::Html => "html",
         FmecaFormat::Svg => "svg",
+        FmecaFormat::Toml => "toml",
     }
 }

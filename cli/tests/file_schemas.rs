@@ -135,7 +135,7 @@ const WRONG_MISSIONS: [(&str, &str, &str); 40] = [
     ("delivery", "decides = \"cotama\"", "decides = \"nobody\""),
     ("delivery", "decides = \"cotama\"", "decides = \"cotama\"\nrecovery = \"yes\""),
     ("delivery", "does = \"drive\"", ""),
-    ("delivery", "does = \"drive\"", "does = \"fly\""),
+    ("delivery", "does = \"drive\"", "does = \"Fly\""),
     ("delivery", "configuration = \"", "configuration = \"x"),
     ("delivery", "[supervision]\ndecides = \"cotama\"", ""),
 ];

@@ -30,7 +30,7 @@ fn no_line_is_wider_than_the_window() {
 fn every_format_is_written_by_its_name_and_by_the_end_of_the_files_name() {
     let folder = Folder::new("fmeca_formats");
     std::fs::create_dir(folder.path().join("out")).unwrap();
-    for format in ["md", "csv", "html", "svg"] {
+    for format in ["md", "csv", "html", "svg", "toml"] {
         let printed = folder.cotama(&["fmeca", "--format", format]);
         assert_eq!((printed.code, printed.stderr.as_str()), (Some(0), ""), "{format}");
         let file = format!("out/fmeca.{format}");
@@ -373,4 +373,26 @@ fn texts_of_the_page_can_be_read_on_light_and_on_dark() {
         }
     }
     assert_eq!(pairs, 18);
+}
+
+#[test]
+fn rows_of_a_table_become_those_of_a_robot() {
+    let folder = Folder::new("fmeca_rows");
+    assert_eq!(folder.cotama(&["new", "robot", "cart"]).code, Some(0));
+    let columns = "id,function,component,failure_mode,cause,effect,severity_auto,severity_teleop,\
+        modules_lost,flags,detection_latency_s,mtbf_h,reaction";
+    let row = "LID2,perceive obstacles,laser scanner,dirty,dust,ranges are short,medium,weak,\
+        scan; avoid,scan late;,0.5,300,drive slowly";
+    folder.write("more.csv", format!("{columns}\n{row}\n"));
+    let rows = folder.cotama(&["fmeca", "more.csv", "--format", "toml"]).stdout;
+    let expected = "[[failure]]\nid = \"LID2\"\nfunction = \"perceive obstacles\"\n\
+        item = \"laser scanner\"\nmode = \"dirty\"\ncause = \"dust\"\neffect = \"ranges are short\"\n\
+        severity = { autonomous = \"medium\", operator = \"weak\" }\nflags = [\"scan late\"]\n\
+        latency_ms = 500\nloses = [\"scan\", \"avoid\"]\nmean_hours = 300\n# drive slowly\n";
+    assert_eq!(rows, expected);
+    folder.write("cart.toml", folder.read("cart.toml") + &rows);
+    let analysis = folder.cotama(&["fmeca", "cart.toml", "--json"]).json(0);
+    let modes = analysis["rows"].as_array().unwrap();
+    assert_eq!(modes[modes.len() - 1]["id"], "LID2");
+    assert_eq!(folder.cotama(&["check", "cart.toml"]).code, Some(0));
 }

@@ -61,8 +61,11 @@ name = "fetch"
 robot = "own.toml"
 path_length_mm = 20_000
 limits = { order = ["duration", "energy"], duration_ms = 200_000, energy_mj = 9_000_000 }
-tio = [{ id = "look", task = "WAI", duration_ms = 1_000, power_mw = 1_000 }]
-objective = [{ id = "there", does = "drive", x_start_mm = 0, x_end_mm = 20_000 }]
+tio = [{ id = "hold", task = "GRASP", duration_ms = 1_000, power_mw = 1_000 }]
+objective = [
+  { id = "there", does = "drive", x_start_mm = 0, x_end_mm = 20_000 },
+  { id = "hold", does = "grasp", x_start_mm = 20_000, x_end_mm = 20_000 },
+]
 [run]
 event = [{ during = "Grasp", after_ms = 500, kind = "failure", mode = "SLIP1" }]
 "#;

@@ -61,16 +61,23 @@ fn described(page: &str, heading: &str) -> BTreeSet<String> {
 }
 
 /// The tables of a robot's file, where they stand in the schema, and the lines that begin them.
-const ROBOT_TABLES: [(&str, &str, &str); 9] = [
+const ROBOT_TABLES: [(&str, &str, &str); 12] = [
     ("the file", "", "format = \"cotama-robot/1\""),
     ("[body]", "/properties/body", "[body]"),
     ("[hardware.NAME]", "/properties/hardware/additionalProperties", "[hardware.base]"),
     ("[module.NAME]", "/properties/module/additionalProperties", "[module.scan]"),
+    (
+        "[module.NAME.parameter.NAME]",
+        "/properties/module/additionalProperties/properties/parameter/additionalProperties",
+        "[module.scan.parameter.n]",
+    ),
     ("[observer.NAME]", "/properties/observer/additionalProperties", "[observer.timing]"),
     ("[operator]", "/properties/operator", "[operator]"),
     ("[supervisors]", "/properties/supervisors", "[supervisors]"),
     ("[[configuration]]", "/properties/configuration/items", "[[configuration]]"),
     ("[[failure]]", "/properties/failure/items", "[[failure]]"),
+    ("[failure.restart]", "/properties/failure/items/properties/restart", "[failure.restart]"),
+    ("[failure.set]", "/properties/failure/items/properties/set", "[failure.set]"),
 ];
 
 #[test]
@@ -80,7 +87,12 @@ fn the_page_of_robots_agrees_with_the_schema_and_the_reader() {
     assert_eq!(page.matches("\n### ").count(), ROBOT_TABLES.len());
     let folder = Folder::new("reference_robot");
     folder.cotama(&["new", "robot", "cart", "--json"]).json(0);
-    let cart = format!("{}[supervisors]\nlocal = \"x.json\"\n", folder.read("cart.toml"));
+    let cart = folder.read("cart.toml");
+    let inline = "set = { speed_permille = 600 }\n";
+    assert!(cart.ends_with(inline));
+    let tables = "[failure.set]\nspeed_permille = 600\n[failure.restart]\nmodule = \"scan\"\ntimes = 1\n\
+        [module.scan.parameter.n]\ndefault = 1\n[supervisors]\nlocal = \"x.json\"\n";
+    let cart = cart.replace(inline, tables);
     let schema = schema("robot");
     let mut wrong = Vec::new();
     for (heading, place, line) in ROBOT_TABLES {

@@ -55,4 +55,6 @@ pub(crate) enum FmecaFormat {
     Html,
     /// The cause-effect diagrams (.svg)
     Svg,
+    /// The rows of a robot's file (.toml)
+    Toml,
 }

@@ -109,7 +109,7 @@ fn quoted(field: String) -> String {
 }
 
 /// A number of thousandths as a decimal number without trailing zeros.
-fn thousandths(number: u64) -> String {
+pub(super) fn thousandths(number: u64) -> String {
     let mut text = (number / 1000).to_string();
     if !number.is_multiple_of(1000) {
         // Writing into a string cannot fail.

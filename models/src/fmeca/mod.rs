@@ -39,6 +39,7 @@ mod groups;
 mod own_robot;
 mod reader;
 mod robot;
+mod rows;
 mod set;
 
 pub use analysis::{Analysis, Flag, MAX_FLAGS, MAX_MODES, MAX_PROBES, Mode, Probe, Rib};

@@ -5,6 +5,7 @@ use super::faults::Run;
 use super::terms::{MotionPower, PlannedFor};
 use super::under::Under;
 use crate::cotama::Configuration;
+use crate::names::nearest;
 use cotama_core::hardware::Equipment;
 use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
 use std::ops::Range;
@@ -29,6 +30,42 @@ pub enum Task {
     Deliver,
     /// `WAI`: wait, standing.
     Wait,
+    /// One of the user's own, standing.
+    Own(OwnTask),
+}
+
+/// The name of a task of the user's own, for example `GRASP`: 2 to 16 ASCII capitals, digits and
+/// `_`, the first a letter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct OwnTask {
+    bytes: [u8; 16],
+    length: u8,
+}
+
+impl OwnTask {
+    /// The task of this name; `None` if it is no name of a task.
+    ///
+    /// ```
+    /// use cotama_models::missions::OwnTask;
+    /// assert_eq!(OwnTask::new("GRASP").unwrap().name(), "GRASP");
+    /// assert_eq!(OwnTask::new("grasp"), None);
+    /// ```
+    pub fn new(name: &str) -> Option<Self> {
+        let is_word = |it: u8| it.is_ascii_uppercase() || it.is_ascii_digit() || it == b'_';
+        let starts = name.starts_with(|it: char| it.is_ascii_uppercase());
+        let mut bytes = [0; 16];
+        if !starts || name.len() < 2 || !name.bytes().all(is_word) {
+            return None;
+        }
+        bytes.get_mut(..name.len())?.copy_from_slice(name.as_bytes());
+        Some(Self { bytes, length: name.len() as u8 })
+    }
+
+    /// Returns the name.
+    pub fn name(&self) -> &str {
+        let bytes = self.bytes.get(..usize::from(self.length)).unwrap_or_default();
+        core::str::from_utf8(bytes).unwrap_or_default()
+    }
 }
 
 impl Task {
@@ -46,12 +83,25 @@ impl Task {
     ];
 
     /// Returns the name in mission files.
-    pub const fn name(self) -> &'static str {
-        Self::NAMES[self as usize]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Move => "MOV",
+            Self::Turn => "TUR",
+            Self::Detect => "DET",
+            Self::Localise => "LOC",
+            Self::Receive => "RCV",
+            Self::Deliver => "DLV",
+            Self::Wait => "WAI",
+            Self::Own(it) => it.name(),
+        }
     }
 
+    /// The task of this name: a known one, or one of the user's own, which is not nearly a known
+    /// one.
     pub(super) fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|task| task.name() == name)
+        let known = Self::ALL.into_iter().find(|task| task.name() == name);
+        let is_new = || nearest(name, Self::NAMES.into_iter()).is_none();
+        known.or_else(|| OwnTask::new(name).filter(|_| is_new()).map(Self::Own))
     }
 
     /// Whether it decides how long an objective takes. Every objective has exactly one such task.
@@ -84,6 +134,8 @@ pub enum Does {
     Deliver,
     /// The robot waits for a time.
     Wait,
+    /// The robot stands for a task of the user's own, named in small letters: `grasp` for `GRASP`.
+    Own(OwnTask),
 }
 
 impl Does {
@@ -93,8 +145,25 @@ impl Does {
     pub(super) const ALL: [Self; 4] = [Self::Drive, Self::Receive, Self::Deliver, Self::Wait];
 
     /// Returns the name in mission files.
-    pub const fn name(self) -> &'static str {
-        Self::NAMES[self as usize]
+    pub fn name(&self) -> String {
+        match self {
+            Self::Drive => "drive".to_owned(),
+            Self::Receive => "receive".to_owned(),
+            Self::Deliver => "deliver".to_owned(),
+            Self::Wait => "wait".to_owned(),
+            Self::Own(it) => it.name().to_ascii_lowercase(),
+        }
+    }
+
+    /// The kind of this name, in a mission whose robot has a file of its own.
+    pub(super) fn own(name: &str) -> Option<Self> {
+        let is_new = nearest(name, Self::NAMES.into_iter()).is_none();
+        match Task::from_name(&name.to_ascii_uppercase()) {
+            Some(Task::Own(it)) if is_new && !name.contains(|it: char| it.is_ascii_uppercase()) => {
+                Some(Self::Own(it))
+            }
+            _ => None,
+        }
     }
 
     /// The task that leads such an objective.
@@ -104,6 +173,7 @@ impl Does {
             Self::Receive => Task::Receive,
             Self::Deliver => Task::Deliver,
             Self::Wait => Task::Wait,
+            Self::Own(it) => Task::Own(it),
         }
     }
 }

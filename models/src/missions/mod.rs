@@ -42,8 +42,8 @@ mod under;
 
 #[cfg(feature = "std")]
 pub use definition::{
-    AXES, Definition, Does, Hardware, HardwareRequirement, Objective, Robot, Standing, Supervision,
-    Task, Tio, Zone,
+    AXES, Definition, Does, Hardware, HardwareRequirement, Objective, OwnTask, Robot, Standing,
+    Supervision, Task, Tio, Zone,
 };
 #[cfg(feature = "std")]
 pub use diagnostic::{Diagnostic, MAX_DIAGNOSTICS, MissionErrors, Position, Spanned, told_with};

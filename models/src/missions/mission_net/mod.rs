@@ -125,7 +125,7 @@ const fn ends_with(does: Does) -> EventId {
         Does::Drive => EventId(1),
         Does::Receive => EventId(3),
         Does::Deliver => EventId(4),
-        Does::Wait => crate::cotama::WAIT_OVER,
+        Does::Wait | Does::Own(_) => crate::cotama::WAIT_OVER,
     }
 }
 

@@ -318,7 +318,9 @@ fn tio(
     {
         let message = format!("`{}` is done by the configurations of the robot", task.name());
         let it = Diagnostic::new(fields.span_of("task"), message, "not here");
-        fields.report(it.help("leave the option out; `RCV`, `DLV` and `WAI` can stand here"));
+        fields.report(it.help(
+            "leave the option out; `RCV`, `DLV`, `WAI` and tasks of your own can stand here",
+        ));
     }
     let speed_max = fields.optional_integer("speed_max_mm_s", SPEEDS);
     let quality_per_dm = fields.optional_integer("quality_per_dm", QUALITIES);
@@ -343,9 +345,10 @@ fn tio(
     Entry { item: complete(), id }
 }
 
-/// Reads time and power of an option that gives them itself: one that receives, delivers or waits.
+/// Reads time and power of an option that gives them itself: one that receives, delivers, waits, or
+/// does a task of the user's own.
 fn own_standing(fields: &mut Fields<'_>, task: Option<Task>) -> Result<Option<Standing>, Reported> {
-    if !matches!(task, Some(Task::Receive | Task::Deliver | Task::Wait)) {
+    if !matches!(task, Some(Task::Receive | Task::Deliver | Task::Wait | Task::Own(_))) {
         return Ok(None);
     }
     let duration = fields.integer("duration_ms", POSITIVE).map(Millis);

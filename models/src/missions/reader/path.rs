@@ -116,8 +116,11 @@ pub(super) fn objective(
 
 /// The task of this name; reports it if there is none.
 pub(super) fn task(fields: &Fields<'_>, name: &Spanned<String>) -> Option<Task> {
-    fields.index_of(name, "task", Task::NAMES.iter().copied())?;
-    Task::from_name(&name.value)
+    let task = Task::from_name(&name.value);
+    if task.is_none() {
+        fields.index_of(name, "task", Task::NAMES.iter().copied())?;
+    }
+    task
 }
 
 fn tasks(fields: &Fields<'_>, names: &[Spanned<String>], tios: &[Entry<Tio>]) -> Option<Vec<Task>> {
@@ -203,7 +206,8 @@ fn suit_what_it_does(
         fields.report(Diagnostic::new(fields.span_of("x_end_mm"), message, label).help(help));
         return false;
     }
-    let task = does.task().name();
+    let task = does.task();
+    let task = task.name();
     if leads(tasks) != [does.task()] {
         let message = format!(
             "an objective that does `{}` needs `{task}`, and no other task but `LOC`",

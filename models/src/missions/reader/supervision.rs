@@ -75,6 +75,9 @@ pub(super) fn does(
     supervised: &Supervised,
 ) -> Result<Option<Spanned<Does>>, Reported> {
     let Some(found) = supervised_text(fields, "does", supervised.known())? else { return Ok(None) };
+    if let Some(value) = Does::own(&found.value).filter(|_| supervised.is_by_robot()) {
+        return Ok(Some(Spanned { value, span: found.span }));
+    }
     let index = fields.index_of(&found, "kind of objective", Does::NAMES.into_iter());
     let value = index.and_then(|index| Does::ALL.get(index).copied()).ok_or(Reported)?;
     Ok(Some(Spanned { value, span: found.span }))

@@ -8,12 +8,13 @@ use crate::format::{metres, trimmed};
 use cotama_core::text::markup;
 use cotama_models::missions::{Mission, Task, Tio};
 use cotama_sim::trace::PlanRow;
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::fmt::Write;
 
 /// Returns the name of a task in words.
-pub(super) const fn task_name(task: Task) -> &'static str {
-    match task {
+pub(super) fn task_name(task: Task) -> Cow<'static, str> {
+    let name = match task {
         Task::Move => "move",
         Task::Turn => "turn",
         Task::Detect => "detect",
@@ -21,7 +22,9 @@ pub(super) const fn task_name(task: Task) -> &'static str {
         Task::Receive => "receive",
         Task::Deliver => "deliver",
         Task::Wait => "wait",
-    }
+        Task::Own(it) => return Cow::Owned(it.name().to_ascii_lowercase()),
+    };
+    Cow::Borrowed(name)
 }
 
 /// The table and its legend.
@@ -149,7 +152,7 @@ fn legend(html: &mut String, view: &View<'_>, families: &[&str]) {
             html,
             "<li><b class=\"{class}\">{}</b>{}: {}</li>",
             markup(id),
-            capital(task_name(tio.task)),
+            capital(&task_name(tio.task)),
             markup(&needs(tio, mission))
         );
     }
