@@ -7,6 +7,7 @@ use cotama_models::cotama::{
     global, local, observation, operator, path_following, permit, recovering, recovery,
     teleoperation,
 };
+use cotama_models::nets::ace::robot;
 use cotama_models::nets::families::Family;
 use cotama_models::nets::{self, Model};
 
@@ -48,7 +49,7 @@ impl Entry {
     }
 }
 
-static SYSTEMS: [System<'static>; 2] = [delivery::SYSTEM, recovering::SYSTEM];
+static SYSTEMS: [System<'static>; 3] = [robot::SYSTEM, delivery::SYSTEM, recovering::SYSTEM];
 
 /// All of them, in the order in which they are listed.
 pub(crate) fn entries() -> Vec<Entry> {

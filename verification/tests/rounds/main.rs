@@ -6,6 +6,7 @@
 #![allow(clippy::type_complexity, clippy::needless_for_each)]
 #![allow(missing_docs)]
 
+mod ace;
 mod asked;
 mod breaks;
 mod cells;

@@ -21,4 +21,5 @@
 pub mod accuracy;
 pub mod behaviour;
 pub mod request;
+pub mod robot;
 pub mod selection;
