@@ -1,11 +1,10 @@
-//! The executive level: modules, what they stand on and exchange, which sets of them run, and the
+//! The executive level: modules, what they stand on, which sets of them run, and the
 //! processor time that they take.
 
 mod configurations;
 mod health;
 pub mod load;
 mod module;
-mod ports;
 mod resources;
 mod table;
 
@@ -15,6 +14,5 @@ pub use configurations::{
 };
 pub use health::{Health, Status, StatusVector};
 pub use module::{Kind, Module, ModuleFacts, Modules};
-pub use ports::{Data, Datum, ModuleEvent, ModuleEvents, Parameter, Request};
 pub use resources::{Resource, Resources};
 pub use table::{MODULES, available};

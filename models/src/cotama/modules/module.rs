@@ -1,7 +1,6 @@
 //! The modules of the executive level (Durand et al., TAROS 2010, Sections II.B and IV.B, Figs. 1
 //! and 2; what is not stated there carries its label in [`MODULES`](crate::cotama::MODULES)).
 
-use super::ports::{Data, ModuleEvents, Parameter};
 use super::resources::Resources;
 use crate::cotama::label::Label;
 use crate::cotama::members::members;
@@ -76,14 +75,6 @@ pub struct ModuleFacts {
     pub kind: Kind,
     /// Function of the module, in words.
     pub function: &'static str,
-    /// Data it consumes (inferred).
-    pub inputs: Data,
-    /// Data it produces (inferred).
-    pub outputs: Data,
-    /// Events it sends to the decisional level (inferred).
-    pub events: ModuleEvents,
-    /// Settings.
-    pub parameters: &'static [Parameter],
     /// Resources it needs, all of them.
     pub hardware: Resources,
     /// Modules it needs, all of them.

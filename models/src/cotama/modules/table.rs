@@ -3,21 +3,12 @@
 use super::module::Kind::{Control, Diagnosis, Functional, Observer};
 use super::module::Module::{self, Gui, Lan, Nav, P3d, Sim, Smz, Ust};
 use super::module::{Kind, ModuleFacts, Modules};
-use super::ports::Datum::{
-    Course, Flags, Image, JobTimes, LinkState, MclPose, MotorCommand, OdometricPose, Path, Pose,
-    Ranges, RobotState, SonarValues, StatusVector, Ticks,
-};
-use super::ports::ModuleEvent::{
-    GoalReached, Operator, PathReady, PlannerFailed, RealTimeFault, StatusChanged,
-};
-use super::ports::{Data, Datum, ModuleEvent, ModuleEvents, Parameter};
 use super::resources::Resource::{
     AccessPoint, Battery, Camera, Electronics, Encoders, LaptopCpu, Map, Motors, SerialLink,
     SonarArrays, WifiCard,
 };
 use super::resources::{Resource, Resources};
-use crate::cotama::label::Label::{self, Assumed, Inferred, Stated};
-use crate::cotama::members::differ;
+use crate::cotama::label::Label::{self, Inferred, Stated};
 
 /// The facts of each module, in the order of [`Module`].
 ///
@@ -32,33 +23,19 @@ pub const MODULES: [ModuleFacts; Module::ALL.len()] = [
         "runs the modules in their periods and watches their deadlines",
         Stated,
     )
-    .data(&[], &[JobTimes])
-    .events(&[RealTimeFault])
-    .parameters(&[
-        set("period", "ms", 20, 100, 100, Assumed),
-        set("extra_time", "ms", 0, 100, 20, Assumed),
-        set("violations", "", 1, 10, 3, Assumed),
-    ])
     .stands_on(&[LaptopCpu], &[], Stated),
     module(
         Module::Gom,
         Diagnosis,
         "collects flags, diagnoses, keeps the module status vector",
         Stated,
-    )
-    .data(&[Flags, JobTimes], &[StatusVector])
-    .events(&[StatusChanged]),
+    ),
     module(
         Module::P3d,
         Functional,
         "sensor values in, motor commands out; sees bumpers, battery, stall",
         Stated,
     )
-    .data(&[MotorCommand], &[SonarValues, Ticks, RobotState, Flags])
-    .parameters(&[
-        set("battery_low", "mV", 10_000, 13_000, 11_500, Assumed),
-        set("battery_critical", "mV", 10_000, 13_000, 11_000, Assumed),
-    ])
     .stands_on(&[Electronics, SerialLink, Battery], &[], Stated),
     module(
         Module::Sim,
@@ -66,18 +43,15 @@ pub const MODULES: [ModuleFacts; Module::ALL.len()] = [
         "makes the sonar values; odometry and bumpers are real",
         Stated,
     )
-    .data(&[Ticks], &[SonarValues])
     .stands_on(&[SonarArrays], &[P3d], Inferred),
     module(Module::Ust, Functional, "makes raw sonar values usable by the algorithms", Stated)
-        .data(&[SonarValues], &[Ranges])
-        .parameters(&[set("saturation", "mm", 1_000, 5_000, 5_000, Stated)])
         .stands_on(&[SonarArrays], &[P3d, Sim], Stated),
-    module(Module::Mcl, Control, "Monte Carlo localisation", Stated)
-        .data(&[Ranges, Ticks], &[MclPose])
-        .parameters(&[set("n_particles", "", 100, 1_000, 1_000, Assumed)])
-        .stands_on(&[Map], &[Ust, P3d], Stated),
+    module(Module::Mcl, Control, "Monte Carlo localisation", Stated).stands_on(
+        &[Map],
+        &[Ust, P3d],
+        Stated,
+    ),
     module(Module::Odo, Control, "odometric pose", Stated)
-        .data(&[Ticks], &[OdometricPose])
         .stands_on(&[Encoders], &[P3d], Stated)
         .part_of(Nav),
     module(
@@ -86,53 +60,47 @@ pub const MODULES: [ModuleFacts; Module::ALL.len()] = [
         "selects the pose, and holds odometry and the control law",
         Inferred,
     )
-    .data(&[MclPose, OdometricPose, Course], &[Pose, MotorCommand])
-    .parameters(&[set("speed_limit", "mm/s", 0, 300, 300, Stated)])
     .stands_on(&[Encoders, Motors], &[P3d], Inferred),
     module(Module::Ctr, Control, "asymptotic control law with saturation of the actuators", Stated)
-        .data(&[Course, Pose], &[MotorCommand])
         .stands_on(&[], &[Nav], Inferred)
         .part_of(Nav),
-    module(Module::Ppl, Control, "path planning (Lazy PRM)", Stated)
-        .data(&[Pose], &[Path])
-        .events(&[PathReady, PlannerFailed])
-        .stands_on(&[Map], &[Nav], Inferred),
-    module(Module::Gui, Control, "guidance: path following alone", Stated)
-        .data(&[Path, Pose], &[Course])
-        .events(&[GoalReached])
-        .stands_on(&[], &[Nav], Stated),
+    module(Module::Ppl, Control, "path planning (Lazy PRM)", Stated).stands_on(
+        &[Map],
+        &[Nav],
+        Inferred,
+    ),
+    module(Module::Gui, Control, "guidance: path following alone", Stated).stands_on(
+        &[],
+        &[Nav],
+        Stated,
+    ),
     module(Module::Smz, Control, "safe manoeuvring zone: avoidance and guidance in one", Stated)
-        .data(&[Path, Pose, Ranges], &[Course])
-        .events(&[GoalReached])
         .stands_on(&[], &[Ust, Nav], Stated),
-    module(Module::Dvz, Control, "deformable virtual zone: reactive avoidance", Stated)
-        .data(&[Ranges], &[Course])
-        .stands_on(&[], &[Ust], Inferred),
-    module(Module::Lan, Functional, "WiFi to the operator's computer", Stated)
-        .data(&[Image, Pose], &[LinkState, Course, Path])
-        .events(&[Operator])
-        .stands_on(&[WifiCard, AccessPoint], &[], Stated),
-    module(Module::Cam, Functional, "camera stream for the operator", Inferred)
-        .data(&[], &[Image])
-        .stands_on(&[Camera], &[Lan], Stated),
+    module(Module::Dvz, Control, "deformable virtual zone: reactive avoidance", Stated).stands_on(
+        &[],
+        &[Ust],
+        Inferred,
+    ),
+    module(Module::Lan, Functional, "WiFi to the operator's computer", Stated).stands_on(
+        &[WifiCard, AccessPoint],
+        &[],
+        Stated,
+    ),
+    module(Module::Cam, Functional, "camera stream for the operator", Inferred).stands_on(
+        &[Camera],
+        &[Lan],
+        Stated,
+    ),
     module(
         Module::OSen,
         Observer,
         "interval checks on sensor data, timing checks on the sonars",
         Stated,
     )
-    .data(&[SonarValues, Ranges, Ticks, Image], &[Flags])
-    .parameters(&[
-        set("stuck_time", "ms", 1_000, 60_000, 5_000, Assumed),
-        set("moved_distance", "mm", 100, 5_000, 500, Assumed),
-    ])
     .stands_on(&[], &[P3d], Inferred),
     module(Module::OEff, Observer, "multiple-model Kalman filter on motors and wheels", Stated)
-        .data(&[Ticks, MotorCommand], &[Flags])
         .stands_on(&[Encoders], &[P3d], Stated),
     module(Module::OCom, Observer, "interval checks on link, level and noise of the WiFi", Stated)
-        .data(&[LinkState], &[Flags])
-        .parameters(&[set("heartbeat", "ms", 100, 10_000, 2_000, Assumed)])
         .stands_on(&[WifiCard], &[Lan], Stated),
     module(
         Module::OLoc,
@@ -140,11 +108,6 @@ pub const MODULES: [ModuleFacts; Module::ALL.len()] = [
         "distance of odometric and MCL pose and its growth, interval checks",
         Stated,
     )
-    .data(&[OdometricPose, MclPose], &[Flags])
-    .parameters(&[
-        set("distance", "mm", 50, 5_000, 500, Assumed),
-        set("growth", "mm/s", 5, 500, 50, Assumed),
-    ])
     .stands_on(&[], &[Nav], Inferred),
     module(
         Module::OPf,
@@ -152,8 +115,6 @@ pub const MODULES: [ModuleFacts; Module::ALL.len()] = [
         "coherence of path following: backward too long, no convergence",
         Stated,
     )
-    .data(&[Path, Pose, Course], &[Flags])
-    .parameters(&[set("backward_time", "ms", 1_000, 60_000, 8_000, Assumed)])
     .stands_on(&[], &[Nav], Stated)
     .needs_one_of(&[Gui, Smz]),
 ];
@@ -163,10 +124,6 @@ const fn module(module: Module, kind: Kind, function: &'static str, label: Label
         module,
         kind,
         function,
-        inputs: Data::NONE,
-        outputs: Data::NONE,
-        events: ModuleEvents::NONE,
-        parameters: &[],
         hardware: Resources::NONE,
         needs: Modules::NONE,
         needs_one_of: Modules::NONE,
@@ -176,33 +133,7 @@ const fn module(module: Module, kind: Kind, function: &'static str, label: Label
     }
 }
 
-const fn set(
-    name: &'static str,
-    unit: &'static str,
-    low: u32,
-    high: u32,
-    initial: u32,
-    label: Label,
-) -> Parameter {
-    Parameter { name, unit, low, high, initial, label }
-}
-
 impl ModuleFacts {
-    const fn data(mut self, inputs: &[Datum], outputs: &[Datum]) -> Self {
-        (self.inputs, self.outputs) = (Data::of(inputs), Data::of(outputs));
-        self
-    }
-
-    const fn events(mut self, events: &[ModuleEvent]) -> Self {
-        self.events = ModuleEvents::of(events);
-        self
-    }
-
-    const fn parameters(mut self, parameters: &'static [Parameter]) -> Self {
-        self.parameters = parameters;
-        self
-    }
-
     const fn stands_on(mut self, hardware: &[Resource], needs: &[Module], label: Label) -> Self {
         (self.hardware, self.needs) = (Resources::of(hardware), Modules::of(needs));
         self.needs_label = label;
@@ -260,7 +191,6 @@ pub const fn available(faulty: Modules, lost: Resources) -> Modules {
 const _: () = {
     assert!(MODULES.len() == Module::ALL.len(), "each module needs one row of MODULES");
     let (mut before, mut at) = (Modules::NONE, 0);
-    let (mut made, mut wanted) = (Data::NONE, Data::NONE);
     while at < MODULES.len() {
         let it = &MODULES[at];
         assert!(it.module as usize == at, "MODULES must be in the order of the enum Module");
@@ -269,26 +199,7 @@ const _: () = {
             "a module needs itself or a later one: a cycle, or Module is not in topological order"
         );
         assert!(it.needs_one_of.len() != 1, "one alternative is a plain need");
-        let mut names = [""; 8];
-        let mut parameter = 0;
-        while parameter < it.parameters.len() {
-            let set = &it.parameters[parameter];
-            assert!(
-                set.low <= set.initial && set.initial <= set.high,
-                "the initial value of a parameter is not in its range"
-            );
-            names[parameter] = set.name;
-            assert!(
-                differ(names.split_at(parameter + 1).0),
-                "two parameters of one module have the same name"
-            );
-            parameter += 1;
-        }
         before = before.with(it.module);
-        made = made.union(it.outputs);
-        wanted = wanted.union(it.inputs);
         at += 1;
     }
-    assert!(made.covers(wanted), "a module consumes data that none produces");
-    assert!(made.is(Data::ALL), "a kind of data is produced by no module");
 };
