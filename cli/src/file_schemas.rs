@@ -271,8 +271,8 @@ fn objective() -> Value {
         ("x_end_mm", integer(&AT_LEAST_ZERO, ends)),
         ("tasks", with(tasks, "uniqueItems", true.into())),
     ];
-    let meaning = "needed under supervision: `drive`, `receive`, `deliver`, `wait`; or, with a robot \
-                   that has a file, a task of your own in small letters";
+    let meaning = "needed under supervision: `drive`, `receive`, `deliver`, `wait`; or, with a \
+                   robot that has a file, a task of your own in small letters";
     let does = with(text(meaning), "pattern", "^[a-z][a-z0-9_]{1,15}$".into());
     table(&needs, &[("does", does)], "a part of what is to be done")
 }

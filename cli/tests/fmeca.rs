@@ -386,7 +386,8 @@ fn rows_of_a_table_become_those_of_a_robot() {
     folder.write("more.csv", format!("{columns}\n{row}\n"));
     let rows = folder.cotama(&["fmeca", "more.csv", "--format", "toml"]).stdout;
     let expected = "[[failure]]\nid = \"LID2\"\nfunction = \"perceive obstacles\"\n\
-        item = \"laser scanner\"\nmode = \"dirty\"\ncause = \"dust\"\neffect = \"ranges are short\"\n\
+        item = \"laser scanner\"\nmode = \"dirty\"\ncause = \"dust\"\n\
+        effect = \"ranges are short\"\n\
         severity = { autonomous = \"medium\", operator = \"weak\" }\nflags = [\"scan late\"]\n\
         latency_ms = 500\nloses = [\"scan\", \"avoid\"]\nmean_hours = 300\n# drive slowly\n";
     assert_eq!(rows, expected);

@@ -90,7 +90,8 @@ fn the_page_of_robots_agrees_with_the_schema_and_the_reader() {
     let cart = folder.read("cart.toml");
     let inline = "set = { speed_permille = 600 }\n";
     assert!(cart.ends_with(inline));
-    let tables = "[failure.set]\nspeed_permille = 600\n[failure.restart]\nmodule = \"scan\"\ntimes = 1\n\
+    let tables = "[failure.set]\nspeed_permille = 600\n[failure.restart]\n\
+        module = \"scan\"\ntimes = 1\n\
         [module.scan.parameter.n]\ndefault = 1\n[supervisors]\nlocal = \"x.json\"\n";
     let cart = cart.replace(inline, tables);
     let schema = schema("robot");

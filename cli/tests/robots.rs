@@ -38,7 +38,7 @@ fn a_changed_robot_shows_how_it_breaks_a_property() {
 fn all_that_takes_a_model_takes_a_robot() {
     let folder = cart("robots_models");
     let states = folder.cotama(&["statespace", "cart.toml", "--json"]).json(0);
-    assert_eq!((&states["states"], &states["rounds"]["states"]), (&json!("2194"), &json!("708")));
+    assert_eq!((&states["states"], &states["rounds"]["states"]), (&json!("2660"), &json!("838")));
     let models = folder.cotama(&["models", "cart.toml", "--json"]).json(0);
     assert_eq!(models["models"][0]["components"].as_array().unwrap().len(), 8);
     let svg = folder.cotama(&["export", "cart.toml", "--format", "svg"]).stdout;
@@ -68,7 +68,8 @@ fn the_failures_of_a_robot_are_analysed_if_their_rates_are_said() {
             "start scan anew 2 times; then another configuration",
             "end the mission",
             "stop, ask the operator",
-            "record"
+            "record",
+            "set 60 % of the speed; record",
         ]
     );
     let text = folder.read("cart.toml").replace("mean_hours = 20\n", "");

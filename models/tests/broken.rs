@@ -99,7 +99,7 @@ fn edits_of_the_patrol() {
         ),
         (
             "unknown_task",
-            &[("task = \"MOV\"", "task = \"MVO\""), ("[\"TUR\", \"LOC\"]", "[\"TURN\", \"FLY\"]")],
+            &[("task = \"MOV\"", "task = \"MVO\""), ("[\"TUR\", \"LOC\"]", "[\"TURN\", \"fly\"]")],
         ),
         (
             "unknown_option",

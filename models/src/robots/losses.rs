@@ -137,6 +137,14 @@ impl Losses {
         self.left.get(lost as usize).copied().unwrap_or_default()
     }
 
+    /// Returns the report, by its number, as which a report is told to the contextual supervisor:
+    /// the first one with which it shares loss and severities, and so every decision.
+    pub fn told_as(&self, report: usize) -> usize {
+        let key = |it: &Report| (it.loss, it.autonomous, it.operator);
+        let own = self.reports.get(report).map(key);
+        self.reports.iter().position(|it| Some(key(it)) == own).unwrap_or(report)
+    }
+
     /// Returns the losses that can come back, a bit each.
     pub(super) fn returning(&self) -> u32 {
         let all = self.losses.iter().enumerate().filter(|it| it.1.returns);

@@ -20,8 +20,8 @@ pub struct Parameter {
 }
 
 /// A reaction that changes no configuration: a setting, as long as the failure shows itself and a
-/// while after. With `times` it comes before any other reaction, so many times in a mission; without
-/// it, beside what severity and availability say.
+/// while after. With `times` it comes before any other reaction, so many times in a mission;
+/// without it, beside what severity and availability say.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Setting {
     /// New values of parameters.

@@ -210,7 +210,7 @@ impl Space {
             Rates::Even => 1,
             Rates::Fmeca => it.mean_mh.map_or(1, |mean| (LONGEST_MTBF_MH / mean.max(1)).max(1)),
         };
-        // What the planner tells does not happen by itself.
+        // A failure that the planner tells does not happen by itself.
         let kinds = robot.failures.iter().enumerate().filter(|it| !it.1.no_plan);
         let one = |(at, it)| Weighted { kind: Kind::Row(at), weight: weight(it) };
         let operators = |it: &row::SubObjective| it.mode == row::Mode::Operator;

@@ -42,7 +42,7 @@ fn the_nets_of_ace_keep_their_promises_together() {
         "AG (interaction.Pending -> AF !interaction.Pending)",
         "AG (traversability.Pending -> AF !traversability.Pending)",
         // Who counts as active holds the robot, or is about to hear that another one does.
-        "AG (vision.Active -> (selection.Vision | vision.Displaced.waiting | vision.Ended.waiting))",
+        "AG (vision.Active -> selection.Vision | vision.Displaced.waiting | vision.Ended.waiting)",
         // A dead holder is missed, and the robot can rest again.
         "AG (selection.Failed.waiting -> AF !selection.Failed.waiting)",
         "AG EF (selection.Nobody & behaviour.Idle)",

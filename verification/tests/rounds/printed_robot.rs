@@ -270,7 +270,7 @@ cotama_core::net! {
 }
 
 cotama_core::net! {
-    /// All failures, at any time.
+    /// All failures and returns, at any time.
     pub mod net_faults {
         places {
             /// Anything may fail.

@@ -8,6 +8,7 @@ use crate::missions::definition::{
 };
 use crate::missions::diagnostic::{Diagnostic, Spanned};
 use crate::missions::known::{AT_LEAST_ZERO, SPEEDS, UNITS};
+use crate::names::unknown;
 use cotama_core::units::{Millimetres, MillimetresPerSecond};
 use std::ops::Range;
 
@@ -118,7 +119,11 @@ pub(super) fn objective(
 pub(super) fn task(fields: &Fields<'_>, name: &Spanned<String>) -> Option<Task> {
     let task = Task::from_name(&name.value);
     if task.is_none() {
-        fields.index_of(name, "task", Task::NAMES.iter().copied())?;
+        let (message, mut help) = unknown("task", &name.value, Task::NAMES.into_iter());
+        if help.starts_with("known") {
+            help += "; or one of your own, in capitals";
+        }
+        fields.report(Diagnostic::new(name.span.clone(), message, "not known").help(help));
     }
     task
 }

@@ -17,6 +17,7 @@ mod cubes;
 mod draft;
 mod joined;
 mod nets;
+mod observing;
 mod own;
 mod rust_source;
 
@@ -51,6 +52,29 @@ pub(super) fn place_of(robot: &Robot, it: usize) -> String {
     } else {
         format!("ls.{}", word(&of.name))
     }
+}
+
+/// The event of the contextual supervisor by which it is told a report.
+fn told_as(robot: &Robot, report: usize) -> String {
+    let told = robot.losses.reports.get(robot.losses.told_as(report));
+    told.map_or_else(String::new, |it| word(&it.name))
+}
+
+/// The reports, by number, that are told as themselves, each with all failures that are told so.
+fn told_alone(robot: &Robot) -> impl Iterator<Item = (usize, Vec<usize>)> {
+    let alone = 0..robot.losses.reports.len();
+    alone.filter(|it| robot.losses.told_as(*it) == *it).map(move |number| {
+        let all = robot.losses.reports.iter().enumerate();
+        let same = all.filter(|it| robot.losses.told_as(it.0) == number);
+        (number, same.flat_map(|it| it.1.failures.iter().copied()).collect())
+    })
+}
+
+/// The failures of a report, in words.
+fn told(robot: &Robot, failures: &[usize]) -> String {
+    let all = failures.iter().filter_map(|it| robot.failures.get(*it));
+    let all: Vec<_> = all.map(|it| format!("{}: {}", it.id, it.mode)).collect();
+    all.join("; ")
 }
 
 /// Returns the condition under which a configuration cannot run, as far as is known, in the
@@ -92,9 +116,9 @@ pub fn system(robot: &Robot) -> OwnedSystem {
         system.net(&adapter(it.is), nets::adapter(robot, it));
     }
     system.net("permit", OwnedNet::from(&permit::NET));
-    system.net("gom", nets::observation(robot));
+    system.net("gom", observing::observation(robot));
     system.net("cs", nets::contextual(robot));
-    system.net("faults", nets::faults(robot));
+    system.net("faults", observing::faults(robot));
     if robot.operator.is_some() {
         system.net("operator", nets::operator(robot));
     }
@@ -120,9 +144,11 @@ pub fn system(robot: &Robot) -> OwnedSystem {
             system.now(("ls", &stop), ("permit", "revoke"));
         }
     }
-    for report in robot.losses.reports.iter().map(|it| word(&it.name)) {
-        let flag = format!("flag_{report}");
-        system.mail(("gom", &report), ("cs", &report));
+    for (number, report) in robot.losses.reports.iter().enumerate() {
+        let (flag, told) = (format!("flag_{}", word(&report.name)), told_as(robot, number));
+        if robot.losses.told_as(number) == number {
+            system.mail(("gom", &told), ("cs", &told));
+        }
         system.mail(("faults", &flag), ("gom", &flag));
     }
     for it in robot.losses.losses.iter().filter(|it| it.returns) {

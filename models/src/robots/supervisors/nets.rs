@@ -2,7 +2,7 @@
 
 use super::cubes::{Cube, cubes};
 use super::draft::{Draft, Line};
-use super::word;
+use super::{told, told_alone, told_as, word};
 use crate::robots::{Decision, Mode, Robot, Situation, SubObjective, Where, decide};
 use cotama_core::net::owned::OwnedNet;
 
@@ -230,87 +230,6 @@ pub(super) fn adapter(robot: &Robot, of: &Part<'_>) -> OwnedNet {
     net.done()
 }
 
-/// The global observation module: from flags to reports, and which losses are known (Durand et
-/// al., TAROS 2010, Section V.A). A module that may be started anew is, before anything is told.
-pub(super) fn observation(robot: &Robot) -> OwnedNet {
-    let doc = "Global observation module: what is known to be lost, and what is told of it.";
-    let mut net = Draft::new("observation", doc);
-    net.place("Ready", 1, "Diagnoses at once.");
-    for (number, it) in robot.losses.losses.iter().enumerate() {
-        net.flag(&lost(robot, number), &format!("{} is known to be lost.", it.name));
-    }
-    for report in &robot.losses.reports {
-        let name = word(&report.name);
-        net.event(&format!("flag_{name}"), &told(robot, &report.failures));
-        net.output(&name, "");
-        let mut line = Line::on(name.clone(), format!("flag_{name}")).goes("Ready", "Ready");
-        if let Some(it) = report.restarts {
-            let module = robot.modules.get(it.module).map_or("", |it| it.name.as_str());
-            let doc = format!("How often {module} may still be started anew.");
-            let restart = format!("restart_{}", word(module));
-            let it = Tried { output: restart, done: "restarts", times: it.times, doc };
-            line = it.before(line, &mut net, &name);
-        }
-        if let Some(it) = &report.sets {
-            let set = format!("set_{name}");
-            line = if let Some(times) = it.times {
-                let doc = "How often a setting alone may still be the answer.".to_owned();
-                Tried { output: set, done: "sets", times, doc }.before(line, &mut net, &name)
-            } else {
-                net.output(&set, "");
-                line.emits(set)
-            };
-        }
-        let Some(loss) = report.loss else {
-            net.line(line.emits(name));
-            continue;
-        };
-        let flag = lost(robot, loss);
-        let again = line.clone().when(&flag, true).emits(name.clone());
-        net.line(line.raises(&flag).emits(name.clone()));
-        // Known already, but worse than what told of it, or answered by a setting too.
-        let worst = report.autonomous.max(report.operator);
-        if worst >= crate::cotama::Severity::Hard || report.sets.is_some() {
-            net.line(again.named(format!("{name}_again")));
-        }
-    }
-    for (number, it) in robot.losses.losses.iter().enumerate().filter(|it| it.1.returns) {
-        let (flag, back) = (lost(robot, number), format!("back_{}", word(&it.name)));
-        net.event(&back, &format!("{} works again.", it.name));
-        let line = Line::on(back.clone(), back).goes("Ready", "Ready");
-        net.line(line.lowers(&flag));
-    }
-    net.done()
-}
-
-/// A reaction that is tried so many times before anything is told.
-struct Tried {
-    output: String,
-    done: &'static str,
-    times: u8,
-    doc: String,
-}
-
-impl Tried {
-    /// Tries it under the conditions of a line; returns the line with the condition that it was
-    /// tried as often as it may.
-    fn before(self, line: Line, net: &mut Draft, name: &str) -> Line {
-        let Self { output, done, times, doc } = self;
-        let (left, spent) = (format!("{done}_{name}"), format!("{done}_spent_{name}"));
-        net.store(&left, &spent, u32::from(times), &doc);
-        net.output(&output, "");
-        let first = line.clone().named(format!("{name}_{done}"));
-        net.line(first.goes(&left, &spent).emits(output));
-        line.when_at_least(&spent, u32::from(times))
-    }
-}
-
-fn told(robot: &Robot, failures: &[usize]) -> String {
-    let all = failures.iter().filter_map(|it| robot.failures.get(*it));
-    let all: Vec<_> = all.map(|it| format!("{}: {}", it.id, it.mode)).collect();
-    all.join("; ")
-}
-
 /// The contextual supervisor: [`decide`] as a net.
 pub(super) fn contextual(robot: &Robot) -> OwnedNet {
     let doc = "Contextual supervisor: what a report means where the robot is.";
@@ -326,26 +245,24 @@ pub(super) fn contextual(robot: &Robot) -> OwnedNet {
         net.shared(&format!("runs_{}", configuration(robot, it)));
     }
     losses(robot, &mut net);
-    for it in &robot.losses.reports {
-        net.event(&word(&it.name), &told(robot, &it.failures));
+    for (number, failures) in told_alone(robot) {
+        net.event(&told_as(robot, number), &told(robot, &failures));
     }
     net.output("global_event", "");
     net.output("local_event", "");
     let adapters = all.iter().filter(|it| has_adapter(it.is));
     adapters.for_each(|it| net.output(&format!("adapt_{}", it.name), ""));
 
-    // Reports that take the same and are as severe have the same cases.
-    let mut known = std::collections::BTreeMap::new();
     for (number, report) in robot.losses.reports.iter().enumerate() {
+        if robot.losses.told_as(number) != number {
+            continue;
+        }
         let given = report.loss.map_or(0, |it| 1 << it);
         let mut place = |at: Where, wheres: &[(String, bool)], adapter: &str, name: &str| {
             let of = |lost: u32| decide(robot, number, Situation { at, lost });
-            let key = (report.loss, report.autonomous, report.operator, name.to_owned());
-            let cases = known.entry(key).or_insert_with(|| {
-                let all = cubes(robot.losses.all(), given, &of).into_iter();
-                all.filter(|it| it.1 != Decision::Record).collect::<Vec<_>>()
-            });
-            for (variant, (cube, decision)) in cases.iter().copied().enumerate() {
+            let cases = cubes(robot.losses.all(), given, &of).into_iter();
+            let cases = cases.filter(|it| it.1 != Decision::Record).enumerate();
+            for (variant, (cube, decision)) in cases {
                 let name = format!("{}_{name}{}", word(&report.name), variant + 1);
                 let line = Line::on(name, word(&report.name)).goes("Ready", "Ready");
                 let line = wheres.iter().fold(line, |line, it| line.when(&it.0, it.1));
@@ -379,28 +296,6 @@ pub(super) fn contextual(robot: &Robot) -> OwnedNet {
             let line = Line::on(format!("refusal_{at}"), "refusal").goes("Ready", "Ready");
             net.line(line.when(&at, true).emits("global_event"));
         }
-    }
-    net.done()
-}
-
-/// The surroundings of the supervisors: whatever can fail does, and what can come back does, at any
-/// time, again and again.
-pub(super) fn faults(robot: &Robot) -> OwnedNet {
-    let mut net = Draft::new("faults", "All failures and returns, at any time.");
-    net.place("Ready", 1, "Anything may fail.");
-    for it in &robot.losses.reports {
-        let name = word(&it.name);
-        net.event(&format!("fail_{name}"), &told(robot, &it.failures));
-        net.output(&format!("flag_{name}"), "");
-        let line = Line::on(format!("fail_{name}"), format!("fail_{name}"));
-        net.line(line.goes("Ready", "Ready").emits(format!("flag_{name}")));
-    }
-    for it in robot.losses.losses.iter().filter(|it| it.returns) {
-        let name = word(&it.name);
-        let (works, back) = (format!("works_{name}"), format!("back_{name}"));
-        net.event(&works, &format!("{} works again.", it.name));
-        net.output(&back, "");
-        net.line(Line::on(works.clone(), works).goes("Ready", "Ready").emits(back));
     }
     net.done()
 }

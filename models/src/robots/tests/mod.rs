@@ -59,7 +59,8 @@ fn the_contextual_net_decides_as_the_function_in_every_situation() {
                     let losses = robot.losses.losses.iter().enumerate();
                     let lost_now = losses.filter(|it| lost >> it.0 & 1 == 1);
                     marked.extend(lost_now.map(|it| format!("lost_{}", word(&it.1.name))));
-                    let said = fires(net, &word(&report.name), &marked).map(|it| it.concat());
+                    let told = &robot.losses.reports[robot.losses.told_as(number)];
+                    let said = fires(net, &word(&told.name), &marked).map(|it| it.concat());
                     let expected = match (decide(&robot, number, Situation { at, lost }), at) {
                         (Decision::Record, _) => None,
                         (Decision::Ask, _) => Some("local_event".to_owned()),

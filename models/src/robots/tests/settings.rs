@@ -55,8 +55,8 @@ fn settings_and_times_that_make_no_sense_are_refused() {
         (
             scan,
             "period_ms = 10\ncost_us = 10_001\n[module.scan]".into(),
-            "21:8: `Careful` is not in time: `drive`: its cost, 10001 us, is above deadline and extra \
-             time, 10000 us; no job would ever be done",
+            "21:8: `Careful` is not in time: `drive`: its cost, 10001 us, is above deadline and \
+             extra time, 10000 us; no job would ever be done",
             "lower a cost or a parameter, or lengthen a period or a deadline",
         ),
         (
