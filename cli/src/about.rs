@@ -7,6 +7,7 @@ use crate::answers::check::{CheckAnswer, StatespaceAnswer, VerifyAnswer};
 use crate::answers::conform::ConformAnswer;
 use crate::answers::error::ErrorAnswer;
 use crate::answers::estimate::EstimateAnswer;
+use crate::answers::floor::FloorAnswer;
 use crate::answers::fmeca::FmecaAnswer;
 use crate::answers::model::{ModelsAnswer, SimulateAnswer};
 use crate::answers::new::NewAnswer;
@@ -70,6 +71,7 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
             Screen::raw(LINE_SCHEMA.as_bytes())?;
             return Ok(Exit::Success);
         }
+        SchemaName::Floor => schemas.into_root_schema_for::<FloorAnswer>(),
         SchemaName::Fmeca => schemas.into_root_schema_for::<FmecaAnswer>(),
         SchemaName::Campaign => schemas.into_root_schema_for::<CampaignAnswer>(),
         SchemaName::New => schemas.into_root_schema_for::<NewAnswer>(),

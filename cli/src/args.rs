@@ -6,6 +6,7 @@ mod check;
 mod conform;
 mod estimate;
 mod fitted;
+mod floor;
 mod fmeca;
 mod mission;
 mod model;
@@ -20,6 +21,7 @@ pub(crate) use check::{BudgetArgs, CheckArgs, EngineName, Semantics, StatespaceA
 pub(crate) use conform::ConformArgs;
 pub(crate) use estimate::{EstimateArgs, MOST_RUNS};
 pub(crate) use fitted::command;
+pub(crate) use floor::FloorArgs;
 pub(crate) use fmeca::{FmecaArgs, FmecaFormat};
 pub(crate) use mission::{
     AllocateArgs, AllocatorName, Lost, Objective, PlanArgs, Planning, ReplayArgs, RunArgs, STEPS,
@@ -183,6 +185,13 @@ Examples:
     /// Checks a certificate again, without the engine that found it
     #[command(after_long_help = check::VERIFY_EXAMPLES)]
     Verify(VerifyArgs),
+    /// Shows a floor, its places and doors, and plans a path over it
+    ///
+    /// A path keeps the robot's radius from everything that its map has, goes where there is more
+    /// room if that is not much longer, and is given with the spans in which it crosses zones, as
+    /// a mission has them.
+    #[command(after_long_help = floor::FLOOR_EXAMPLES)]
+    Floor(FloorArgs),
     /// Plays a net or a system, with a list of events or by hand
     ///
     /// Each event is offered in its turn: a transition that is enabled fires, then those that fire

@@ -32,6 +32,7 @@ pub(crate) enum Kind {
     TeamTrace,
     Fmeca,
     Robot,
+    Floor,
 }
 
 /// The kinds that hold a model.
@@ -64,6 +65,7 @@ impl Kind {
             Some(it) if it.starts_with("cotama-fmeca/") => return Some(Self::Fmeca),
             Some(it) if it.starts_with("cotama-team-faults/") => return Some(Self::TeamFaults),
             Some(it) if it.starts_with("cotama-robot/") => return Some(Self::Robot),
+            Some(it) if it.starts_with("cotama-floor/") => return Some(Self::Floor),
             Some(it) if it.starts_with("cotama-team/") => return Some(Self::TeamAtWork),
             _ => {}
         }
@@ -119,6 +121,7 @@ impl Kind {
             Self::TeamFaults => "a file of a team's faults",
             Self::TeamTrace => "the trace of a team",
             Self::Robot => "a robot",
+            Self::Floor => "a floor",
         }
     }
 
@@ -141,6 +144,7 @@ impl Kind {
             Self::TeamFaults => "`cotama campaign service --out DIR` writes some",
             Self::TeamTrace => "`cotama run fleet --trace FILE` writes one",
             Self::Robot => "`cotama new robot NAME` begins one",
+            Self::Floor => "`cotama new floor NAME` begins one",
         }
     }
 
@@ -157,6 +161,7 @@ impl Kind {
             Self::Trace | Self::TeamTrace | Self::TeamFaults => format!("cotama replay {file}"),
             Self::Recording => format!("cotama conform MODEL {file}"),
             Self::Fmeca => format!("cotama fmeca {file}"),
+            Self::Floor => format!("cotama floor {file}"),
             Self::Instance => format!("cotama allocate {file}"),
             Self::Team => format!("cotama assign {file}"),
             Self::TeamAtWork => format!("cotama run {file}"),

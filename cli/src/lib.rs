@@ -19,6 +19,7 @@ mod exit;
 mod export;
 mod file_errors;
 mod file_schemas;
+mod floor;
 mod fmeca;
 mod foreign;
 mod infeasible;
@@ -157,6 +158,7 @@ fn ended(command: Command, screen: &Screen) -> Result<Exit, Failure> {
         Command::Verify(args) => verify::verify(&args, screen),
         Command::Simulate(args) => simulate::simulate(&args, screen),
         Command::Conform(args) => conform::conform(&args, screen),
+        Command::Floor(args) => floor::floor(&args, screen),
         Command::Fmeca(args) => fmeca::fmeca(&args, screen),
         Command::Campaign(args) => campaign::campaign(&args, screen),
         Command::New(args) => new::new(&args, screen),

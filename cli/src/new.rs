@@ -47,6 +47,7 @@ macro_rules! template {
 const MISSION: (&str, &str) = (include_str!("../templates/mission.toml"), "my-mission");
 const ROBOT_MISSION: &str = include_str!("../templates/robot_mission.toml");
 const ROBOT: (&str, &str) = (include_str!("../templates/robot.toml"), "my-robot");
+const FLOOR: (&str, &str) = (include_str!("../templates/floor.toml"), "my-floor");
 const FMECA: (&str, &str) = (include_str!("../templates/fmeca.toml"), "my-fmeca");
 static NET: Template = template!("my-net" in "net", taken: &["net"]);
 static SYSTEM: Template =
@@ -97,7 +98,7 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
         return Err(Failure::new(message).help("leave it out"));
     }
     let (files, next) = match args.kind {
-        NewKind::Mission | NewKind::Robot | NewKind::Fmeca => {
+        NewKind::Mission | NewKind::Robot | NewKind::Floor | NewKind::Fmeca => {
             let what = one_file(args.kind);
             if args.sources.is_some() {
                 let message = format!("--sources is for crates: {what} is one file");
@@ -108,6 +109,7 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
             let (text, own) = match args.kind {
                 NewKind::Mission => MISSION,
                 NewKind::Robot => ROBOT,
+                NewKind::Floor => FLOOR,
                 _ => FMECA,
             };
             let text = match &args.robot {
@@ -120,6 +122,9 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
                 NewKind::Mission => ["plan", "run"].map(|it| format!("{it} {shown}")),
                 NewKind::Robot => {
                     [format!("check {shown}"), format!("export {shown} --format svg")]
+                }
+                NewKind::Floor => {
+                    ["", " --from left --to right"].map(|it| format!("floor {shown}{it}"))
                 }
                 _ => ["", " --diagnosability"].map(|it| format!("fmeca {shown}{it}")),
             };
@@ -308,10 +313,11 @@ fn is_crate(kind: NewKind) -> bool {
     matches!(kind, NewKind::Net | NewKind::System | NewKind::Board)
 }
 
-/// Returns the file name of a kind that is one file.
+/// Returns a kind that is one file, in words.
 const fn one_file(kind: NewKind) -> &'static str {
     match kind {
         NewKind::Robot => "a robot",
+        NewKind::Floor => "a floor",
         NewKind::Fmeca => "an FMECA",
         _ => "a mission",
     }
@@ -336,7 +342,7 @@ fn check_name(kind: NewKind, name: &str) -> Result<(), Failure> {
     }
     let module = name.replace('-', "_");
     let taken = match kind {
-        NewKind::Mission | NewKind::Robot | NewKind::Fmeca => return Ok(()),
+        NewKind::Mission | NewKind::Robot | NewKind::Floor | NewKind::Fmeca => return Ok(()),
         NewKind::Net => NET.taken,
         NewKind::System => SYSTEM.taken,
         NewKind::Board => BOARD.taken,

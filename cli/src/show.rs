@@ -1,4 +1,4 @@
-//! `cotama show`: the file of a mission, a team or a robot.
+//! `cotama show`: the file of a mission, a team, a robot or a floor.
 
 use crate::args::MissionArg;
 use crate::exit::{Exit, Failure};
@@ -8,11 +8,12 @@ use crate::team::Chosen;
 use cotama_core::text;
 use cotama_models::robots;
 
-/// Prints the file of a mission, a team or a robot; what a terminal would obey in its strings and
-/// comments is escaped.
+/// Prints the file of a mission, a team, a robot or a floor; what a terminal would obey in its
+/// strings and comments is escaped.
 pub(crate) fn show(args: &MissionArg) -> Result<Exit, Failure> {
-    let robot = robots::embedded(&args.mission).map(|it| it.text.to_owned());
-    let text = match (robot, Chosen::of(&args.mission)?) {
+    let robot = robots::embedded(&args.mission).map(|it| it.text);
+    let floor = (args.mission == "office").then_some(cotama_floor::embedded::OFFICE.text);
+    let text = match (robot.or(floor).map(str::to_owned), Chosen::of(&args.mission)?) {
         (Some(text), _) => text,
         (None, Some(team)) => team.text(),
         (None, None) => mission::load(&args.mission)?.text().to_owned(),

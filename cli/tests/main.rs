@@ -20,6 +20,7 @@ mod errors;
 mod estimate;
 mod export;
 mod file_schemas;
+mod floor;
 mod fmeca;
 mod fmeca_page;
 mod help;

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
 
-const COMMANDS: [&str; 19] = [
+const COMMANDS: [&str; 20] = [
     "list",
     "plan",
     "run",
@@ -23,6 +23,7 @@ const COMMANDS: [&str; 19] = [
     "verify",
     "conform",
     "recording",
+    "floor",
     "fmeca",
     "campaign",
     "new",

@@ -11,6 +11,7 @@ What is written:
   robot    NAME.toml, a robot with all that can fail on it, of which its supervisors are made; \
 `check`, `statespace`, `simulate` and `export` take it as it is
   fmeca    NAME.toml, failure modes of a small robot with every key; `fmeca` takes it as it is
+  floor    NAME.toml, two rooms with every key; `floor` takes it as it is
   net      the folder NAME: a crate with a supervisor, its laws, a program that plays it, tests of \
 what it promises, and an example that writes it as JSON for `check` and `simulate`
   system   the same with two supervisors that work together
@@ -35,6 +36,8 @@ pub(crate) enum NewKind {
     Robot,
     /// A file of failure modes, their effects and criticality
     Fmeca,
+    /// A floor with walls, a door, places
+    Floor,
     /// A crate with a supervisor
     Net,
     /// A crate with supervisors that work together

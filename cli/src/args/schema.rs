@@ -27,6 +27,7 @@ pub(crate) enum SchemaName {
     Estimate,
     Verify,
     Conform,
+    Floor,
     Fmeca,
     Campaign,
     New,
