@@ -403,13 +403,16 @@ impl Robot {
         all.find(|it| running >> it & 1 == 1)
     }
 
-    /// Returns the best configuration after one, in the order of ranks, that can run after these
-    /// losses: what the adapter takes in place of it. A better one that has come back is taken at
-    /// the next start, so that no failure makes it go back and forth.
+    /// Returns what the adapter takes in place of a configuration after these losses: the best one
+    /// after it, in the order of ranks, that can run; where there is none, the best other one,
+    /// which has come back.
     pub fn next(&self, of: usize, lost: u32) -> Option<usize> {
         let (running, it) = (self.running(lost), self.configurations.get(of)?);
-        let all = self.sub_objectives.get(it.sub_objective)?.configurations.iter().copied();
-        all.skip_while(|it| *it != of).skip(1).find(|it| running >> it & 1 == 1)
+        let all = self.sub_objectives.get(it.sub_objective)?;
+        let all = || all.configurations.iter().copied();
+        let runs = |it: &usize| running >> it & 1 == 1;
+        let worse = all().skip_while(|it| *it != of).skip(1).find(runs);
+        worse.or_else(|| all().take_while(|it| *it != of).find(runs))
     }
 
     /// Whether the operator can be reached after these losses.

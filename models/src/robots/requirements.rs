@@ -188,16 +188,24 @@ fn adapters(robot: &Robot, of: &SubObjective, ask: &mut Ask<'_>) {
         Vec::new(),
         format!("AG ({adapter}.Off + {} = 1 & {adapter}.Off + ls.{name} = 1)", places.join(" + ")),
     );
-    let worse = places.windows(2).enumerate().map(|(at, _)| {
-        let better = places[..=at].join(" | ");
-        format!("({} -> AX !({better}))", places[at + 1])
-    });
-    let worse: Vec<_> = worse.collect();
-    ask(
-        format!("AS2.{name}"),
-        format!("Until it ends, `{}` only degrades.", of.name),
-        Vec::new(),
-        format!("AG ({})", worse.join(" & ")),
-    );
+    let returns = robot.losses.losses.iter().any(|it| it.returns);
+    let mut worse = Vec::new();
+    for (at, better) in of.configurations.iter().enumerate() {
+        let below = places[at + 1..].join(" | ");
+        match (below.as_str(), cannot_run(robot, *better).filter(|_| returns)) {
+            ("", _) => {}
+            // What has come back may be taken where nothing else is left.
+            (_, Some(lost)) => {
+                worse.push(format!("(({below}) & ({lost}) -> AX !{})", places[at]));
+            }
+            (_, None) => worse.push(format!("(({below}) -> AX !{})", places[at])),
+        }
+    }
+    let sentence = if returns {
+        format!("Until it ends, `{}` takes nothing better that is known to be lost.", of.name)
+    } else {
+        format!("Until it ends, `{}` only degrades.", of.name)
+    };
+    ask(format!("AS2.{name}"), sentence, Vec::new(), format!("AG ({})", worse.join(" & ")));
     debug_assert!(of.mode == Mode::Autonomous || robot.operator.is_some(), "a robot makes sense");
 }

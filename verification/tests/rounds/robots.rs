@@ -21,8 +21,12 @@ fn holds(rounds: &Rounds, it: &Requirement) -> bool {
     }
     let net = rounds.net().unwrap();
     let model = Model::from(&net.view().net());
+    answered(&Checker::new(&model), &model, it)
+}
+
+fn answered(checker: &Checker<'_>, model: &Model, it: &Requirement) -> bool {
     let property = property::parse(&it.text, model.pt()).unwrap();
-    match Checker::new(&model).answer(&property, &Options::default()).verdict {
+    match checker.answer(&property, &Options::default()).verdict {
         Verdict::Holds(it) => it,
         other => panic!("{}: {other:?}", it.id),
     }
@@ -31,11 +35,19 @@ fn holds(rounds: &Rounds, it: &Requirement) -> bool {
 /// The requirements that do not hold.
 fn broken(robot: &Robot, system: &OwnedSystem) -> Vec<String> {
     let rounds = system.with(|it| rounds(it).unwrap());
-    let all = requirements::of(robot).into_iter().filter(|it| !holds(&rounds, it));
-    all.map(|it| it.id).collect()
+    let net = rounds.net().unwrap();
+    let model = Model::from(&net.view().net());
+    // Those that watch nothing are asked of one net, of which is known what was found before.
+    let checker = Checker::new(&model);
+    let (watching, plain): (Vec<_>, Vec<_>) =
+        requirements::of(robot).into_iter().partition(|it| !it.watches.is_empty());
+    let plain = plain.into_iter().filter(|it| !answered(&checker, &model, it));
+    let watching = watching.into_iter().filter(|it| !holds(&rounds, it));
+    plain.chain(watching).map(|it| it.id).collect()
 }
 
 #[test]
+#[ignore = "two minutes: CI runs it"]
 fn every_requirement_of_the_transport_robot_holds() {
     let robot = Robot::shipped("transport").unwrap();
     assert_eq!(requirements::of(&robot).len(), 27);
@@ -43,7 +55,7 @@ fn every_requirement_of_the_transport_robot_holds() {
 }
 
 #[test]
-#[ignore = "270,604 states for each requirement: half a minute"]
+#[ignore = "422,016 states for each requirement: minutes"]
 fn every_requirement_of_the_delivery_from_its_file_holds() {
     let robot = Robot::shipped("p3dx-delivery").unwrap();
     assert_eq!(requirements::of(&robot).len(), 27);
