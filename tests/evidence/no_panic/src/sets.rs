@@ -42,11 +42,9 @@ macro_rules! sets {
 sets! {
     adjustments: Adjustment Adjustments;
     configurations: Configuration Configurations;
-    data: Datum Data;
     failure_modes: FailureMode FailureModes;
     flags: Flag Flags;
     losses: Loss Losses;
-    module_events: ModuleEvent ModuleEvents;
     modules: Module Modules;
     probes: Probe Probes;
     reports: Report Reports;
