@@ -115,6 +115,8 @@ roots! {
     net ace_selection: cotama_models::nets::ace::selection;
     machine ace_behaviour: cotama_models::nets::ace::behaviour;
     machine ace_accuracy: cotama_models::nets::ace::accuracy;
+    machine alive: cotama_models::nets::ace::robot::alive;
+    machine goal: cotama_models::nets::ace::robot::goal;
     machine contextual: cotama_models::cotama::contextual;
     machine faults: cotama_models::cotama::faults;
     machine global: cotama_models::cotama::global;

@@ -39,9 +39,10 @@ impl<P: Names> Observer<P, Message> for Seen {
     }
 }
 
-/// The roots of systems, and of the state of each of its nets; see those of nets.
+/// The roots of systems, and of the state of each of its nets, but for those behind `;`, which have
+/// several; see those of nets.
 macro_rules! roots {
-    ($($name:ident: $module:path { $($component:ident)+ })*) => {$(
+    ($($name:ident: $module:path { $($component:ident)+ $(; $stateless:ident)* })*) => {$(
         mod $name {
             use super::{
                 Advanced, EventId, Message, Millis, Of, Outcome, PlaceId, RestoreError, Round, Seen,
@@ -127,7 +128,7 @@ macro_rules! roots {
                 )+
 
                 const _: () = assert!(
-                    [$(stringify!($component)),+].len() == system::SYSTEM.components.len(),
+                    [$(stringify!($component),)+ $(stringify!($stateless)),*].len() == system::SYSTEM.components.len(),
                     "a net of this system has no root that reads its state"
                 );
             }
@@ -136,6 +137,9 @@ macro_rules! roots {
 }
 
 roots! {
+    ace_robot: cotama_models::nets::ace::robot {
+        navigation vision interaction traversability goal behaviour accuracy alive; selection
+    }
     delivery: cotama_models::cotama::delivery { cs faults gom gs ls operator permit pf to }
     recovering: cotama_models::cotama::recovering { cs faults gom gs ls operator permit pf to }
     supervision: cotama_models::cotama::supervision { cs gom gs ls pf to }
