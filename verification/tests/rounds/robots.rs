@@ -54,14 +54,6 @@ fn every_requirement_of_the_transport_robot_holds() {
     assert_eq!(broken(&robot, &system(&robot)), Vec::<String>::new());
 }
 
-#[test]
-#[ignore = "422,016 states for each requirement: minutes"]
-fn every_requirement_of_the_delivery_from_its_file_holds() {
-    let robot = Robot::shipped("p3dx-delivery").unwrap();
-    assert_eq!(requirements::of(&robot).len(), 27);
-    assert_eq!(broken(&robot, &system(&robot)), Vec::<String>::new());
-}
-
 /// Changes the lines of a net that begin so.
 fn change(
     system: &mut OwnedSystem,

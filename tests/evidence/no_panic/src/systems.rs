@@ -42,7 +42,9 @@ impl<P: Names> Observer<P, Message> for Seen {
 /// The roots of systems, and of the state of each of its nets, but for those behind `;`, which have
 /// several; see those of nets.
 macro_rules! roots {
-    ($($name:ident: $module:path { $($component:ident)+ $(; $stateless:ident)* })*) => {$(
+    (
+        $($name:ident: $module:path { $($component:ident)+ $(; $stateless:ident)* })*
+    ) => {$(
         mod $name {
             use super::{
                 Advanced, EventId, Message, Millis, Of, Outcome, PlaceId, RestoreError, Round, Seen,
@@ -128,7 +130,8 @@ macro_rules! roots {
                 )+
 
                 const _: () = assert!(
-                    [$(stringify!($component),)+ $(stringify!($stateless)),*].len() == system::SYSTEM.components.len(),
+                    [$(stringify!($component),)+ $(stringify!($stateless)),*].len()
+                        == system::SYSTEM.components.len(),
                     "a net of this system has no root that reads its state"
                 );
             }
