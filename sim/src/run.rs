@@ -160,7 +160,7 @@ pub enum PlanCause {
     Back(Part),
     /// A failure of a robot's file, by its number, took something that the plan needs.
     Failure(usize),
-    /// What a loss of a robot's file, by its number, took works again.
+    /// Parts that a loss of a robot's file, by its number, took work again.
     Works(usize),
     /// The margins leave room for a better plan.
     Room,

@@ -20,7 +20,7 @@ pub enum Told {
     Reached(usize),
     /// A [report](super::Report), by its number.
     Report(usize),
-    /// What a [loss](super::Loss), by its number, took works again.
+    /// Parts that a [loss](super::Loss), by its number, took work again.
     Back(usize),
     /// The operator chooses one of his sub-objectives, by its number.
     Chooses(usize),

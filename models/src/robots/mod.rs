@@ -207,9 +207,9 @@ pub struct Module {
     pub period: Option<Millis>,
     /// When it must be done after its release; the period where nothing else is said.
     pub deadline: Option<Millis>,
-    /// Its worst-case execution time, without what its parameters cost.
+    /// Worst-case execution time, without the costs of its parameters.
     pub cost: Option<Micros>,
-    /// Whose turn is first, 0 before all; among equals the shorter deadline goes first.
+    /// Urgency, 0 before all; among equals the shorter deadline goes first.
     pub priority: u8,
     /// Numbers that can be set while it runs.
     pub parameters: Vec<Parameter>,

@@ -11,7 +11,7 @@ pub struct Parameter {
     pub name: String,
     /// The parameter in a few words; may be empty.
     pub title: String,
-    /// Its value where nothing has failed.
+    /// Value where nothing has failed.
     pub default: u64,
     /// The values that it can have.
     pub range: RangeInclusive<u64>,

@@ -50,13 +50,13 @@ impl Adapted {
         all.map(|it| it.speed).min().unwrap_or(1_000)
     }
 
-    /// When a setting ends that is not seen again.
+    /// Returns the end of a setting whose failure is not seen again.
     fn end(robot: &Robot, (report, seen): &(usize, Millis)) -> Millis {
         let of = robot.losses.reports.get(*report).and_then(|it| it.sets.as_ref());
         Millis(seen.0.saturating_add(of.map_or(0, |it| it.holds.0)))
     }
 
-    /// When the next setting ends, with all failures as they are.
+    /// Returns the end of the next setting, with all failures as they are.
     pub(super) fn ends_at(
         &self,
         robot: &Robot,
@@ -94,7 +94,7 @@ impl Adapted {
         self.sound.iter().filter(long).map(|it| it.0).collect()
     }
 
-    /// When the next loss that is over has been so for long enough.
+    /// Returns the time at which the next loss has been over for long enough.
     pub(super) fn returns_at(&self, robot: &Robot, failures: &Failures) -> Option<Millis> {
         let broken = failures.broken_losses(robot);
         let over = self.sound.iter().filter(|it| broken >> it.0 & 1 == 0);

@@ -369,7 +369,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         }
     }
 
-    /// What was lost and works again for long enough is to be told.
+    /// Tells of lost parts that have worked again for long enough.
     fn return_what_works(&mut self) {
         let reports = self.robot.losses.reports.iter();
         let known = reports.filter(|it| it.failures.iter().any(|it| self.known_rows.contains(it)));

@@ -25,7 +25,7 @@ fn hold<const N: usize>(net: &OwnedNet, texts: [&str; N]) -> [bool; N] {
     })
 }
 
-/// Where nobody holds the robot it comes to stand.
+/// A robot that nobody holds comes to stand.
 const STANDS: &str = "AG (selection.Nobody -> AF (behaviour.Idle | !selection.Nobody))";
 
 #[test]

@@ -22,9 +22,9 @@ struct Failure {
     latency_ms: usize,
     /// Of [`MOTIONS`]; none beyond.
     motion: usize,
-    /// Of [`ENDS`]; none beyond.
+    /// Position in [`ENDS`]; none beyond.
     ends: usize,
-    /// Of [`SETTINGS`]; none beyond.
+    /// Position in [`SETTINGS`]; none beyond.
     sets: usize,
 }
 
