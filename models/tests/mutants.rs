@@ -6,6 +6,9 @@
 use cotama_fuzz::split_mix;
 use cotama_models::missions::tables::{EMPTY, Rest, buffer_sizes, remaining};
 use cotama_models::missions::{Constraint, Mission, embedded};
+use cotama_models::robots::RobotFile;
+use cotama_models::robots::supervisors::{MAX_STEPS, RESERVED, Step};
+use std::collections::BTreeSet;
 
 const MUTANTS: u64 = 100_000;
 
@@ -77,7 +80,13 @@ fn check(mission: &Mission) {
     let lists =
         remaining(&activities, Some(first), scenario.available(), &mut candidates, &mut lists);
     assert_eq!(lists.map(<[_]>::len), Ok(activities.len()), "all hardware covers all alternatives");
-    assert_eq!(mission.supervisor().is_some(), mission.supervision.is_some());
+    let named = Mission::robot_of(mission.text());
+    assert_eq!(mission.robot().map(|it| it.robot().name.clone()), named);
+    assert_eq!(mission.is_supervised(), named.is_some());
+    let places: BTreeSet<_> = mission.steps().iter().map(Step::place).collect();
+    let is_own = |place: &str| !RESERVED.contains(&place) && places.len() <= MAX_STEPS;
+    let distinct = places.len() == mission.objectives.len() && places.iter().all(|it| is_own(it));
+    assert!(distinct || !mission.is_supervised(), "{places:?}");
     let length: u64 = activities.iter().map(|activity| activity.length().0).sum();
     assert_eq!(length, mission.path_length.0);
     for activity in &activities {
@@ -119,6 +128,12 @@ fn are_read(mutants: u64) {
     let whole = ["patrol", "delivery"].map(|name| embedded::mission(name).unwrap().text);
     let texts = [whole[0].to_owned(), bare(whole[0]), whole[1].to_owned(), bare(whole[1])];
     assert!(texts.iter().all(|text| Mission::parse("bare", text).is_ok()));
+    // The robot of the delivery is read once.
+    let robot = RobotFile::shipped("p3dx-delivery").unwrap();
+    let read = |text: &str| {
+        let named = Mission::robot_of(text).filter(|it| it == robot.source());
+        Mission::parse_under("mutant", text, named.map(|_| robot.clone()))
+    };
     let run = |numbers: std::ops::Range<u64>| {
         let mut accepted = 0;
         for number in numbers {
@@ -128,7 +143,7 @@ fn are_read(mutants: u64) {
                 mutate(&mut text, &mut random);
             }
             let text = String::from_utf8_lossy(&text).into_owned();
-            let outcome = std::panic::catch_unwind(|| match Mission::parse("mutant", &text) {
+            let outcome = std::panic::catch_unwind(|| match read(&text) {
                 Ok(mission) => {
                     check(&mission);
                     true

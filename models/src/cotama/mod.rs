@@ -13,7 +13,6 @@
 mod decider;
 mod decisions;
 mod dependability;
-mod drive;
 mod label;
 mod level;
 mod members;
@@ -29,10 +28,7 @@ pub use decider::{
 };
 pub use decisions::*;
 pub use dependability::*;
-pub use drive::{ACCELERATION, PLANNING, drive_ms};
 pub use label::Label;
-#[cfg(feature = "std")]
-pub(crate) use level::WAIT_OVER;
 pub use level::{Cause, DecisionalLevel, Level, Permit, Return, Told};
 pub use modules::*;
 pub use requirements::*;

@@ -36,7 +36,9 @@ impl TryFrom<&Robot> for Analysis {
     /// assert_eq!(lidar.reaction, "start scan anew once; then another configuration");
     /// ```
     fn try_from(robot: &Robot) -> Result<Self, NoRate> {
-        let lacking = robot.failures.iter().filter(|it| it.mean_mh.is_none());
+        // That no plan is left follows from other failures, and has no rate of its own.
+        let rows = || robot.failures.iter().filter(|it| !it.no_plan);
+        let lacking = rows().filter(|it| it.mean_mh.is_none());
         let lacking: Vec<_> = lacking.map(|it| it.id.clone()).collect();
         if !lacking.is_empty() {
             return Err(NoRate(lacking));
@@ -52,7 +54,7 @@ impl TryFrom<&Robot> for Analysis {
             period_h: PERIOD_H,
             flags: flags.collect(),
             probes: Vec::new(),
-            modes: robot.failures.iter().map(|it| mode(robot, it)).collect(),
+            modes: rows().map(|it| mode(robot, it)).collect(),
         })
     }
 }

@@ -4,7 +4,6 @@ use super::diagnostic::Spanned;
 use super::faults::Run;
 use super::terms::{MotionPower, PlannedFor};
 use super::under::Under;
-use crate::cotama::Configuration;
 use crate::names::nearest;
 use cotama_core::hardware::Equipment;
 use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
@@ -108,18 +107,6 @@ impl Task {
     pub const fn leads(self) -> bool {
         !matches!(self, Self::Localise)
     }
-}
-
-/// The supervisors that decide while the mission runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Supervision {
-    /// The supervisors of COTAMA (Durand et al., TAROS 2010).
-    Cotama,
-}
-
-impl Supervision {
-    /// The names in mission files, in the order of the enum.
-    pub const NAMES: [&str; 1] = ["cotama"];
 }
 
 /// The kind of an objective for its supervisor (Durand et al., TAROS 2010, Sections IV.A.1 and
@@ -230,9 +217,6 @@ pub struct Tio {
     pub quality: u32,
     /// Time and power of the task standing; `None` for tasks that travel or run along.
     pub standing: Option<Standing>,
-    /// The modules that it runs: one for each moving option of a supervised mission, none for other
-    /// options.
-    pub configuration: Option<Configuration>,
 }
 
 /// An objective: tasks that run at the same time on a part of the path.
@@ -322,13 +306,8 @@ pub struct Definition {
     pub objectives: Vec<Objective>,
     /// The zones; they may overlap.
     pub zones: Vec<Zone>,
-    /// The supervisors that decide while the mission runs; `None` for a plain mission, which only
-    /// plans again.
-    pub supervision: Option<Supervision>,
-    /// Whether its supervisors use again what [returns](crate::cotama::recovering).
-    pub recovery: bool,
     /// The robot from a file whose supervisors decide while the mission runs; `None` for a plain
-    /// mission, and for one that `supervision` decides.
+    /// mission, which only plans again.
     pub under: Option<Under>,
     /// How the mission is run by a simulator.
     pub run: Run,

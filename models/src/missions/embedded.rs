@@ -46,7 +46,7 @@ pub fn embedded() -> &'static [Embedded] {
 ///
 /// ```
 /// use cotama_models::missions::embedded;
-/// assert!(embedded::mission("delivery").unwrap().text.contains("decides = \"cotama\""));
+/// assert!(embedded::mission("delivery").unwrap().text.contains("robot = \"p3dx-delivery\""));
 /// assert_eq!(embedded::mission("nope"), None);
 /// ```
 pub fn mission(name: &str) -> Option<Embedded> {

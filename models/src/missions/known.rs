@@ -2,7 +2,6 @@
 //! and a schema for editors repeats them.
 
 use super::terms::PlannedFor;
-use crate::cotama::{Configuration, SubObjective};
 use cotama_core::hardware::MAX_UNITS;
 use std::ops::RangeInclusive;
 
@@ -64,10 +63,3 @@ pub const EVENTS: [&str; 4] = ["obstacle", "fault", "repair", "odometry"];
 pub const INCIDENTS: [&str; 2] = ["failure", "operator"];
 /// The kinds of random events.
 pub const RANDOM_EVENTS: [&str; 2] = ["obstacle", "odometry"];
-
-/// The configurations that a moving option of a supervised mission can run: those that follow a
-/// path.
-pub fn configurations() -> impl Iterator<Item = Configuration> + Clone {
-    let follows = |it: &Configuration| it.facts().sub_objective == SubObjective::Following;
-    Configuration::ALL.iter().copied().filter(follows)
-}

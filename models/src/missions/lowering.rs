@@ -45,10 +45,6 @@ impl Under {
             sink.report(Diagnostic::new(span, message, "").help(help));
             None
         };
-        if definition.supervision.is_some() {
-            let message = "the mission has supervisors already".to_owned();
-            return refused(0..0, message, "leave out [supervision], or the robot");
-        }
         if file.robot().body.is_none() {
             let message = format!("the robot `{}` has no [body]", file.robot().name);
             return refused(0..0, message, "a mission needs to know its speed and power: add it");
@@ -111,7 +107,6 @@ impl Under {
                 quality_per_dm: worse,
                 quality: 0,
                 standing: None,
-                configuration: None,
             });
         }
         let harmless = body.impact.map(|(mass, energy)| harmless_speed(mass, Millijoules(energy)));

@@ -3,51 +3,32 @@
 //! `plan.objective` says what plans are chosen for: `"paper"`, the rule of PANORAMA; `"quality"`;
 //! or `"min-energy"`. Where it is left out, who plans decides.
 //!
-//! # Supervised missions
+//! # Missions under supervisors
 //!
-//! A plain mission is planned, and planned again when a margin or a piece of hardware is lost. In a
-//! *supervised* mission the supervisors of COTAMA (Durand et al., TAROS 2010) decide as well. It is
-//! a mission like any other, and says more:
+//! A plain mission is planned, and planned again when a margin or a piece of hardware is lost. A
+//! mission of [`FORMAT_2`] names its robot (`robot = "transport"`, or the path of a file), whose
+//! supervisors decide as well (Durand et al., TAROS 2010). Body, hardware and options of moving are
+//! the robot's, and the mission says:
 //!
-//! - `[supervision]` with `decides = "cotama"` says that it is supervised; `recovery = true` there,
-//!   that modules which were lost and [are sound for long enough](crate::cotama::recovery) are used
-//!   again: without it nothing returns.
-//! - `does` in each `[[objective]]` says [what it is](crate::missions::Does) to its supervisor:
-//!   `drive`, `receive`, `deliver` or `wait`.
-//! - `configuration` in each `[[tio]]` of the task `MOV` is the
-//!   [set of modules](crate::cotama::Configuration) that runs: `PF.OPT`, `PF.OPTR`, `PF.ODO` or
-//!   `PF.DEG`.
-//! - `[[run.event]]` with `kind = "failure"` has a `mode`, a
-//!   [failure mode](crate::cotama::FailureMode) that observers have to find; with `kind = "repair"`
-//!   and a `mode`, such a failure ends there if it is under way.
-//! - `[[run.event]]` with `kind = "operator"` has `answers`, what the operator
-//!   [answers](crate::missions::faults::Answer) to the next request, and `delay_ms`, the time
-//!   before each answer.
+//! - `does` in each `[[objective]]`: [what it is](crate::missions::Does) to its supervisor,
+//!   `drive`, `receive`, `deliver`, `wait`, or a task of the user's own.
+//! - `[[run.event]]` with `kind = "failure"` has a `mode`, a row of the robot's file that observers
+//!   have to find; with `kind = "repair"` and a `mode`, such a failure ends there.
+//! - `[[run.event]]` with `kind = "operator"` has `answers`, what the operator answers to the next
+//!   request, and `delay_ms`, the time before each answer.
 //!
-//! A drive has the task `MOV`, the others stand and have `RCV`, `DLV` or `WAI`, whose options say
-//! their `duration_ms` and `power_mw` themselves; plain missions may use these three tasks, too.
-//! Modules are `[hardware]` of their names, so that a lost module removes the options that need it,
-//! by the rule of all hardware.
-//!
-//! On load, before the robot moves, its global supervisor is
-//! [made](crate::missions::mission_net::global_supervisor) from the objectives and [every marking
-//! of it looked at](crate::missions::mission_net::check); and the mission must make sense: drives
-//! lead on, an object is received before it is delivered, one at a time, and delivered in the end;
-//! the mission does not end with waiting; no objective passes a limit alone; the robot has the
-//! modules of its configurations and of its operator's answers; and no objective *could block*,
-//! that is: lose with a single module all its options, and teleoperation too. Modules without which
-//! nothing drives are not counted there: without them the robot stops, as it should.
+//! The global supervisor is [made](crate::robots::supervisors::of_mission) from the objectives. The
+//! mission must make sense: drives lead on, an object is received before it is delivered, one at a
+//! time, and delivered in the end; it does not end with waiting; no objective passes a limit alone.
 
 use super::definition::Definition;
 use super::diagnostic::{Diagnostic, MissionErrors};
-use super::faults::Moment;
 use super::lowering;
 use super::reader::{self, Sink};
 use super::scenario::{Constraint, Scenario};
 use super::supervised;
 use super::under::{FORMAT_2, Under};
-use crate::robots::{self, RobotFile};
-use cotama_core::net::owned::OwnedNet;
+use crate::robots::{Moment, RobotFile, supervisors::Step};
 use std::ops::Deref;
 
 /// The format that a mission file must name.
@@ -78,13 +59,11 @@ pub struct Mission {
 /// A [`Definition`] that was checked as a whole, and the [`Scenario`] it unfolds to.
 ///
 /// *Invariant:* the scenario is that of the definition, and none of its activities is without
-/// alternatives; the supervisor of a supervised mission is made from its objectives, and checked.
-/// The definition is therefore read only; its fields are those of the mission.
+/// alternatives. The definition is therefore read only; its fields are those of the mission.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unfolded {
     definition: Definition,
     scenario: Scenario,
-    supervisor: Option<OwnedNet>,
 }
 
 impl Deref for Mission {
@@ -194,24 +173,13 @@ impl Unfolded {
     /// The whole of a definition, or what is wrong with it as a whole.
     fn checked(definition: Definition) -> Result<Self, Vec<Diagnostic>> {
         let scenario = Scenario::generate(&definition)?;
-        let supervisor = supervised::supervisor(&definition, &scenario)?;
-        Ok(Self { definition, scenario, supervisor })
+        supervised::check(&definition)?;
+        Ok(Self { definition, scenario })
     }
 
-    /// The global supervisor made from the objectives of a supervised mission.
-    ///
-    /// ```
-    /// use cotama_models::missions::{Mission, embedded};
-    /// let delivery = embedded::mission("delivery").unwrap();
-    /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
-    /// let places = &mission.supervisor().unwrap().places;
-    /// let names: Vec<_> = places.iter().map(|place| place.name.as_str()).collect();
-    /// let objectives = ["DriveA", "Receive", "DriveB", "Deliver"];
-    /// assert_eq!(names[1..5], objectives);
-    /// assert_eq!([names[0], names[5], names[6], names[7]], ["Wait", "Done", "Security", "Safe"]);
-    /// ```
-    pub fn supervisor(&self) -> Option<&OwnedNet> {
-        self.supervisor.as_ref()
+    /// Returns the objectives as steps of a global supervisor.
+    pub fn steps(&self) -> Vec<Step> {
+        supervised::steps(&self.definition.objectives)
     }
 
     /// The robot from a file whose supervisors decide, if it is one.
@@ -221,7 +189,7 @@ impl Unfolded {
 
     /// Whether supervisors decide while it runs.
     pub fn is_supervised(&self) -> bool {
-        self.supervisor.is_some() || self.definition.under.is_some()
+        self.definition.under.is_some()
     }
 
     /// The activities and their alternatives.
@@ -269,8 +237,6 @@ impl Unfolded {
             definition.run.faults.events.retain(|event| event.x <= definition.path_length);
             let end = definition.path_length;
             let on_path = |when| !matches!(when, Moment::Place(x) if x > end);
-            definition.run.faults.incidents.retain(|incident| on_path(incident.when));
-            let on_path = |when| !matches!(when, robots::Moment::Place(x) if x > end);
             definition.run.faults.of_robot.retain(|incident| on_path(incident.when));
         } else {
             definition.objectives.remove(objective);

@@ -1,9 +1,9 @@
 //! Robot missions as data: from a mission file to the alternatives of each activity.
 //!
-//! A file is read by [`Mission::parse`]; a [`Mission`] is its [`Definition`], the [`Scenario`] that
-//! it unfolds to, and for a supervised one its [global supervisor](mission_net). Beside it stand
-//! what may go wrong in a run ([`faults`]), [why there is no plan](infeasible), and the missions
-//! that come with the program ([`embedded`]). Without the feature `std` only [`tables`] remain.
+//! A file is read by [`Mission::parse`]; a [`Mission`] is its [`Definition`] and the [`Scenario`]
+//! that it unfolds to. Beside it stand what may go wrong in a run ([`faults`]), [why there is no
+//! plan](infeasible), and the missions that come with the program ([`embedded`]). Without the
+//! feature `std` only [`tables`] remain.
 
 pub mod tables;
 
@@ -24,8 +24,6 @@ mod lowering;
 #[cfg(feature = "std")]
 mod mission;
 #[cfg(feature = "std")]
-pub mod mission_net;
-#[cfg(feature = "std")]
 pub(crate) mod reader;
 #[cfg(feature = "std")]
 mod remaining;
@@ -43,7 +41,7 @@ mod under;
 #[cfg(feature = "std")]
 pub use definition::{
     AXES, Definition, Does, Hardware, HardwareRequirement, Objective, OwnTask, Robot, Standing,
-    Supervision, Task, Tio, Zone,
+    Task, Tio, Zone,
 };
 #[cfg(feature = "std")]
 pub use diagnostic::{Diagnostic, MAX_DIAGNOSTICS, MissionErrors, Position, Spanned, told_with};
@@ -56,8 +54,6 @@ pub use scenario::{
     Constraint, Dropped, MAX_ACTIVITIES, MAX_ALTERNATIVES, MAX_ALTERNATIVES_TOTAL, PlannedActivity,
     Scenario,
 };
-#[cfg(feature = "std")]
-pub use supervised::MAX_SUPERVISED_OBJECTIVES;
 #[cfg(feature = "std")]
 pub use terms::{MotionPower, PlannedFor, harmless_speed};
 #[cfg(feature = "std")]

@@ -40,7 +40,7 @@ pub const EMBEDDED: [EmbeddedRobot; 3] = [
 /// let robot = Robot::parse(transport.name, transport.text).unwrap();
 /// assert_eq!((robot.modules.len(), robot.sub_objectives.len()), (12, 5));
 /// let delivery = Robot::shipped("p3dx-delivery").unwrap();
-/// assert_eq!((delivery.configurations.len(), delivery.failures.len()), (8, 46));
+/// assert_eq!((delivery.configurations.len(), delivery.failures.len()), (8, 47));
 /// assert_eq!(embedded("nope"), None);
 /// ```
 pub fn embedded(name: &str) -> Option<EmbeddedRobot> {

@@ -1,6 +1,6 @@
 //! The supervisors of a robot at work: what they are told, and where they are.
 
-use super::supervisors::{place_of, word};
+use super::supervisors::{Step, begins, lost, place_of, word};
 use super::{Mode, Robot, Where, members};
 use crate::cotama::Cause;
 use cotama_core::net::{EventId, PlaceId, TransitionId};
@@ -12,8 +12,10 @@ use cotama_core::units::Millis;
 /// were checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Told {
-    /// The mission wants a drive.
-    DriveWanted,
+    /// The mission begins; of a robot without one, a drive.
+    Begins,
+    /// The task for which the robot stands in an objective, by its number, is done.
+    Over(usize),
     /// The robot stands, after the mission was ended.
     Stopped,
     /// A sub-objective, by its number, is reached.
@@ -33,10 +35,12 @@ pub enum Told {
 /// The place of the global supervisor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Global {
-    /// No drive.
+    /// No mission yet, or no drive.
     Waits,
-    /// A drive is under way.
-    Drives,
+    /// An objective, by its number, is under way; the drive of a robot without a mission is 0.
+    Does(usize),
+    /// The mission is accomplished.
+    Done,
     /// The mission is ended, the robot still moves.
     Secures,
     /// The mission is ended, the robot stands.
@@ -50,14 +54,17 @@ struct Numbers {
     waits: Option<Of<PlaceId>>,
     sub_objectives: Vec<Option<Of<PlaceId>>>,
     configurations: Vec<Option<Of<PlaceId>>>,
+    losses: Vec<Option<Of<PlaceId>>>,
     granted: Option<Of<PlaceId>>,
     destroyed: Option<Of<PlaceId>>,
 }
 
-/// The supervisors of a robot, running: a player of [`system`](super::supervisors::system).
+/// The supervisors of a robot in a mission, running: a player of
+/// [`of_mission`](super::supervisors::of_mission).
 #[derive(Clone, Debug)]
 pub struct Level<'r, P, const W: usize, const C: usize, const S: usize> {
     robot: &'r Robot,
+    steps: Vec<Step>,
     numbers: Numbers,
     player: Player<P, W, C, S, Cause>,
 }
@@ -65,10 +72,10 @@ pub struct Level<'r, P, const W: usize, const C: usize, const S: usize> {
 impl<'r, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
     Level<'r, P, W, C, S>
 {
-    /// The supervisors of a robot at rest.
-    pub fn start(robot: &'r Robot, program: P) -> Self {
-        let numbers = Numbers::of(robot, &program.system());
-        Self { robot, numbers, player: Player::start(program, Millis(0), &mut ()) }
+    /// The supervisors of a robot at rest, with the objectives of its mission.
+    pub fn start(robot: &'r Robot, steps: Vec<Step>, program: P) -> Self {
+        let numbers = Numbers::of(robot, &steps, &program.system());
+        Self { robot, steps, numbers, player: Player::start(program, Millis(0), &mut ()) }
     }
 
     /// One round: each supervisor takes its turn.
@@ -90,12 +97,12 @@ impl<'r, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
 
     /// Returns the name of an event as traces have it, for example `faults.fail_LID1`.
     pub fn name_of(&self, told: Told) -> String {
-        let (net, event) = named(self.robot, told);
+        let (net, event) = named(self.robot, &self.steps, told);
         format!("{net}.{event}")
     }
 
     fn event(&self, told: Told) -> Option<Of<EventId>> {
-        let (net, event) = named(self.robot, told);
+        let (net, event) = named(self.robot, &self.steps, told);
         let system = self.player.program().system();
         let component = system.components.iter().position(|it| it.name == net)?;
         let events = system.components.get(component)?.net.events;
@@ -128,6 +135,12 @@ impl<'r, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
     pub fn global(&self) -> Global {
         let mut all = self.numbers.global.iter();
         all.find(|it| self.is_marked(Some(it.0))).map_or(Global::Waits, |it| it.1)
+    }
+
+    /// Returns the losses that the supervisors know, a bit each.
+    pub fn lost(&self) -> u32 {
+        let all = self.numbers.losses.iter().enumerate();
+        all.filter(|it| self.is_marked(*it.1)).fold(0, |set, it| set | 1 << it.0)
     }
 
     /// Whether the robot may move.
@@ -193,10 +206,14 @@ pub struct Fired<'s> {
 }
 
 /// The net and the event that something is told by.
-fn named(robot: &Robot, told: Told) -> (&'static str, String) {
+fn named(robot: &Robot, steps: &[Step], told: Told) -> (&'static str, String) {
     let of = |it: usize| robot.sub_objectives.get(it).map_or_else(String::new, |it| word(&it.name));
     match told {
-        Told::DriveWanted => ("gs", "drive_wanted".to_owned()),
+        Told::Begins => ("gs", begins(steps).to_owned()),
+        Told::Over(it) => {
+            let ends = steps.get(it).and_then(|it| it.ends.clone());
+            ("gs", ends.unwrap_or_default())
+        }
         Told::Stopped => ("gs", "stopped".to_owned()),
         Told::Reached(it) => ("ls", format!("{}_done", of(it))),
         Told::Report(it) => {
@@ -214,7 +231,7 @@ fn named(robot: &Robot, told: Told) -> (&'static str, String) {
 }
 
 impl Numbers {
-    fn of(robot: &Robot, system: &System<'_>) -> Self {
+    fn of(robot: &Robot, steps: &[Step], system: &System<'_>) -> Self {
         let place = |name: &str| {
             let (net, place) = name.split_once('.')?;
             let component = system.components.iter().position(|it| it.name == net)?;
@@ -222,12 +239,16 @@ impl Numbers {
             let id = places.iter().position(|it| it.name == place)?;
             Some(Of { component: component as u16, id: PlaceId(id as u32) })
         };
-        let global = [
+        let fixed = [
             ("gs.Wait", Global::Waits),
-            ("gs.Drive", Global::Drives),
+            ("gs.Done", Global::Done),
             ("gs.Security", Global::Secures),
             ("gs.Safe", Global::Safe),
         ];
+        let fixed = fixed.map(|it| (it.0.to_owned(), it.1));
+        let drive = steps.is_empty().then(|| ("gs.Drive".to_owned(), Global::Does(0)));
+        let does = steps.iter().enumerate();
+        let does = does.map(|(at, it)| (format!("gs.{}", it.place()), Global::Does(at)));
         let has_adapter = |it: usize| {
             let of = robot.configurations.get(it).map(|it| it.sub_objective);
             let of = of.and_then(|it| robot.sub_objectives.get(it));
@@ -235,13 +256,18 @@ impl Numbers {
         };
         let all = 0..robot.configurations.len();
         Self {
-            global: global.iter().filter_map(|it| Some((place(it.0)?, it.1))).collect(),
+            global: { fixed.into_iter().chain(drive).chain(does) }
+                .filter_map(|it| Some((place(&it.0)?, it.1)))
+                .collect(),
             waits: place("ls.Waits"),
             sub_objectives: { robot.sub_objectives.iter() }
                 .map(|it| place(&format!("ls.{}", word(&it.name))))
                 .collect(),
             configurations: all
                 .map(|it| if has_adapter(it) { place(&place_of(robot, it)) } else { None })
+                .collect(),
+            losses: { 0..robot.losses.losses.len() }
+                .map(|it| place(&format!("gom.{}", lost(robot, it))))
                 .collect(),
             granted: place("permit.Granted"),
             destroyed: place("permit.Destroyed"),

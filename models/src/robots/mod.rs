@@ -384,6 +384,11 @@ impl Robot {
         }
     }
 
+    /// Returns the number of a failure by its short name.
+    pub fn failure(&self, id: &str) -> Option<usize> {
+        self.failures.iter().position(|it| it.id == id)
+    }
+
     /// All flags, each with the number of its observer, observer after observer.
     pub fn flags(&self) -> impl Iterator<Item = (usize, &str)> {
         let all = self.observers.iter().enumerate();

@@ -4,7 +4,7 @@
 //! shipped delivery: GS global, LS local, AS adapters, CS contextual. Texts speak of
 //! [`system`](super::supervisors::system) as one net that acts in rounds.
 
-use super::supervisors::{adapter, cannot_run, place_of, word};
+use super::supervisors::{Step, adapter, cannot_run, place_of, word};
 use super::{Mode, Robot, SubObjective};
 use crate::cotama::Severity;
 
@@ -47,6 +47,11 @@ pub struct Watch {
 /// assert_eq!(all[1].sentence, "Halted, the robot stays stopped, and holds no permit to move.");
 /// ```
 pub fn of(robot: &Robot) -> Vec<Requirement> {
+    of_mission(robot, &[])
+}
+
+/// All requirements of a robot in a mission of these objectives.
+pub fn of_mission(robot: &Robot, steps: &[Step]) -> Vec<Requirement> {
     let mut all = Vec::new();
     let mut ask = |id: String, sentence: String, watches: Vec<Watch>, text: String| {
         all.push(Requirement { id, sentence, watches, text });
@@ -76,12 +81,18 @@ pub fn of(robot: &Robot) -> Vec<Requirement> {
              (gs.Security -> AX (gs.Security | gs.Safe)) & (gs.Safe -> AX gs.Safe))",
         ),
     );
-    ask(
-        plain("GS3"),
-        plain("From everywhere the robot can rest or be stopped for good; and a drive can end."),
-        Vec::new(),
-        plain("EF ls.End & AG EF ((gs.Wait | gs.Safe) & ls.Idle)"),
-    );
+    if steps.is_empty() {
+        ask(
+            plain("GS3"),
+            plain(
+                "From everywhere the robot can rest or be stopped for good; and a drive can end.",
+            ),
+            Vec::new(),
+            plain("EF ls.End & AG EF ((gs.Wait | gs.Safe) & ls.Idle)"),
+        );
+    } else {
+        mission(steps, &mut ask);
+    }
     ask(
         plain("LS1"),
         plain("A drive is in one place: at most one sub-objective is active."),
@@ -125,6 +136,32 @@ pub fn of(robot: &Robot) -> Vec<Requirement> {
         );
     }
     all
+}
+
+/// A mission can be accomplished, and its objectives come one after the other.
+fn mission(steps: &[Step], ask: &mut Ask<'_>) {
+    ask(
+        "GS3".to_owned(),
+        "The mission can be accomplished; from everywhere it can be, or the robot can be stopped \
+         for good."
+            .to_owned(),
+        Vec::new(),
+        "EF gs.Done & AG EF ((gs.Done | gs.Safe) & ls.Idle)".to_owned(),
+    );
+    let places = steps.iter().map(|it| format!("gs.{}", it.place()));
+    let places: Vec<_> =
+        ["gs.Wait".to_owned()].into_iter().chain(places).chain(["gs.Done".to_owned()]).collect();
+    let in_order = places.iter().enumerate().map(|(at, place)| {
+        let next = places.get(at + 1).map_or_else(String::new, |next| format!(" | {next}"));
+        format!("({place} -> AX ({place}{next} | gs.Security))")
+    });
+    ask(
+        "GS4".to_owned(),
+        "The objectives come in their order, each once; nothing else follows but security."
+            .to_owned(),
+        Vec::new(),
+        format!("AG ({})", in_order.collect::<Vec<_>>().join(" & ")),
+    );
 }
 
 fn at_end(name: &str, begins: &str, ends: &str, most: u32) -> Watch {

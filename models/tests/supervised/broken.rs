@@ -1,14 +1,16 @@
 //! A thousand generated mission files, each accepted, and refused when it is broken, for the reason
 //! for which it is.
 
-use crate::file::{File, Objective, failure, operator};
-use cotama_models::missions::{MAX_SUPERVISED_OBJECTIVES, Mission};
+use crate::file::{File, Objective, Option_, failure, operator};
+use cotama_models::missions::Mission;
+use cotama_models::robots::RobotFile;
+use cotama_models::robots::supervisors::MAX_STEPS;
 use std::fmt::Write;
 
 /// A way to break a mission: its name, what the message about it says, and what it does.
 type Breaking = (&'static str, &'static str, fn(&mut File));
 
-const BREAKINGS: [Breaking; 38] = [
+const BREAKINGS: [Breaking; 40] = [
     ("nothing on board", "but no object is on board there", |file| {
         file.objectives.remove(file.first("receive"));
     }),
@@ -46,11 +48,11 @@ const BREAKINGS: [Breaking; 38] = [
     }),
     ("another task", "an objective that does `receive` needs `RCV`", |file| {
         let at = file.first("receive");
-        file.objectives[at].task = "DLV".into();
+        file.objectives[at].task = Some("DLV");
     }),
     ("a drive that stands", "an objective that does `drive` needs `MOV`", |file| {
         let at = file.first("drive");
-        file.objectives[at].task = "WAI".into();
+        file.objectives[at].task = Some("WAI");
     }),
     ("a reserved name", "has a place `Safe` of its own", |file| {
         file.objectives[0].id = "Safe".into();
@@ -58,73 +60,49 @@ const BREAKINGS: [Breaking; 38] = [
     ("a name twice", "is defined twice", |file| {
         file.objectives[0].id = file.objectives[1].id.clone();
     }),
+    ("names that are one place", "`to.A` and `to-A` are one place `to_A`", |file| {
+        (file.objectives[0].id, file.objectives[1].id) = ("to.A".into(), "to-A".into());
+    }),
     ("an unknown kind", "unknown kind of objective `drvie`; did you mean `drive`?", |file| {
         let at = file.first("drive");
         file.objectives[at].does = Some("drvie".into());
     }),
     ("no kind", "missing key `does`", |file| file.objectives[0].does = None),
-    ("too many objectives", "at most 250 objectives", |file| {
-        file.lengthen(MAX_SUPERVISED_OBJECTIVES + 1);
+    ("too many objectives", "at most 250 objectives", |file| file.lengthen(MAX_STEPS + 1)),
+    ("not supervised", "`does` is for missions under the supervisors of a robot", |file| {
+        file.without_robot();
     }),
-    ("not supervised", "`does` is for missions that are supervised", |file| {
-        file.supervision.clear();
+    ("a failure of a plain mission", PLAIN, |file| {
+        file.plain();
+        file.events = failure("x_mm = 0", "RT1");
     }),
-    ("a failure of a plain mission", "events of the kind `failure` are for missions", |file| {
-        file.supervision.clear();
-        file.events = failure(0, "RT1");
+    ("a repair of a plain mission", PLAIN, |file| {
+        file.plain();
+        file.events = failure("x_mm = 0", "RT1").replace("failure", "repair");
     }),
-    ("unknown supervision", "unknown supervision `cotema`; did you mean `cotama`?", |file| {
-        file.supervision = "[supervision]\ndecides = \"cotema\"\n".into();
+    ("an operator of a plain mission", PLAIN, |file| {
+        file.plain();
+        file.events = operator(0, "\"give_up\"");
     }),
-    ("no supervision named", "missing key `decides`", |file| {
-        file.supervision = "[supervision]\n".into();
+    ("a section [supervision]", "supervisors are made of the file of a robot", |file| {
+        file.plain();
+        file.sections += "[supervision]\ndecides = \"cotama\"\n";
     }),
-    ("recovery of no kind", "`recovery` must be `true` or `false`, not", |file| {
-        file.supervision = "[supervision]\ndecides = \"cotama\"\nrecovery = 1\n".into();
+    ("[supervision] beside a robot", "unknown key `supervision`", |file| {
+        file.sections += "[supervision]\ndecides = \"cotama\"\n";
     }),
-    ("a repair of a plain mission", "events of the kind `repair` are for missions", |file| {
-        file.supervision.clear();
-        file.events = failure(0, "RT1").replace("failure", "repair");
+    ("a body beside a robot", "unknown key `motion_power`", |file| {
+        file.sections += "[motion_power]\nc0 = 4890\nc1 = 7400\nc2 = 0\n";
     }),
-    ("an unknown configuration", "unknown configuration `TO.DEG`", |file| {
-        file.options[0].configuration = Some("TO.DEG".into());
+    ("an unknown robot", "unknown robot `p3dx-delivry`; did you mean `p3dx-delivery`?", |file| {
+        file.robot = Some("p3dx-delivry");
     }),
-    ("no configuration", "missing key `configuration`", |file| {
-        file.options[0].configuration = None;
+    ("an option of moving", "`MOV` is done by the configurations of the robot", |file| {
+        let slow = Option_ { id: "slow", task: "MOV", needs: None, more: "" };
+        file.options.push(slow);
     }),
-    ("a standing configuration", "unknown key `configuration`", |file| {
-        file.options.last_mut().unwrap().configuration = Some("PF.OPT".into());
-    }),
-    (
-        "a module that the robot lacks",
-        "runs the module SMZ, which the robot does not have",
-        |file| {
-            file.without_module("SMZ");
-        },
-    ),
-    ("a module that is not needed", "but the option does not need it", |file| {
-        file.options[0].needs.retain(|it| it != "MCL");
-    }),
-    (
-        "a drive that could block",
-        "could block at 0 mm: without SIM or UST or MCL or SMZ none of its options is left",
-        |file| {
-            file.options.retain(|it| it.task != "MOV" || it.id == "PF.OPT");
-            (file.events, file.zones) = (String::new(), String::new());
-            file.without_module("CAM");
-        },
-    ),
-    ("a zone that could block", " or UST or ", |file| {
-        let end = file.path_length;
-        file.zones = format!(
-            "[[zone]]\nid = \"z\"\nx_start_mm = 0\nx_end_mm = {end}\nrequire_hardware = \"UST\"\n"
-        );
-        file.events.clear();
-        file.without_module("LAN");
-    }),
-    ("a standing that could block", "without GUI none of its options is left (over)", |file| {
-        let option = file.options.iter_mut().find(|it| it.id == "over").unwrap();
-        option.needs.push("GUI".into());
+    ("an option like a configuration", "the option `PF.OPT` is defined twice", |file| {
+        file.options[0].id = "PF.OPT";
     }),
     ("a zone without an option", "is left without alternatives", |file| {
         let end = file.path_length;
@@ -132,44 +110,67 @@ const BREAKINGS: [Breaking; 38] = [
             "[[zone]]\nid = \"z\"\nx_start_mm = 0\nx_end_mm = {end}\nrequire_tio = \"in\"\n"
         );
     }),
+    ("a zone of a module", "unknown hardware `MCL`", |file| {
+        file.zones =
+            "[[zone]]\nid = \"z\"\nx_start_mm = 0\nx_end_mm = 9\nrequire_hardware = \"MCL\"\n"
+                .into();
+    }),
     ("no option for a task", "no option implements the task `DLV`", |file| {
         file.options.retain(|it| it.task != "DLV");
     }),
     ("standing without a time", "missing key `duration_ms`", |file| {
-        file.options.last_mut().unwrap().more = "power_mw = 1\n".into();
+        file.options[1].more = "power_mw = 1\n";
     }),
-    ("an unknown failure", "unknown failure mode `RT9`", |file| file.events = failure(0, "RT9")),
-    ("answers in the wrong order", "after a request the operator cannot answer `path`", |file| {
-        file.events = operator(0, "\"path\"");
+    ("an unknown failure", "unknown failure of the robot `RT9`", |file| {
+        file.events = failure("x_mm = 0", "RT9");
     }),
-    ("answers without an end", "the robot would wait for ever", |file| {
-        file.events = operator(0, "\"teleoperate\", \"teleprogram\"");
+    ("a failure behind the path", "lies behind the end of the path", |file| {
+        file.events = failure(&format!("x_mm = {}", file.path_length + 1), "RT1");
     }),
-    (
-        "an operator without a camera",
-        "runs the module CAM, which the robot does not have",
-        |file| {
-            file.without_module("CAM");
-            file.events = operator(0, "\"teleoperate\", \"goal\"");
-        },
-    ),
+    ("a failure of no time", "nothing says when this happens", |file| {
+        file.events = failure("", "RT1");
+    }),
+    ("a failure of two times", "says when, not several", |file| {
+        file.events = failure("x_mm = 0\nt_ms = 9", "RT1");
+    }),
+    ("an unknown sub-objective", "unknown sub-objective `Follow`", |file| {
+        file.events = failure("during = \"Follow\"", "RT1");
+    }),
+    ("an unknown answer", "unknown answer `Following`", |file| {
+        file.events = operator(0, "\"Following\", \"done\"");
+    }),
+    ("answers that begin with the end", "answers begin with what the operator chooses", |file| {
+        file.events = operator(0, "\"done\"");
+    }),
+    ("answers without an end", "and end with `done` or `give_up`", |file| {
+        file.events = operator(0, "\"Teleoperation\", \"Teleprogramming\"");
+    }),
 ];
+const PLAIN: &str = "this event is for missions under the supervisors of a robot";
 
 #[test]
 fn a_thousand_missions_are_accepted_and_their_broken_twins_refused_for_their_reason() {
     let mut refused = [0; BREAKINGS.len()];
+    // A robot that every file names is read once.
+    let robot = RobotFile::shipped("p3dx-delivery");
+    let read = |source: &str, text: &str| {
+        let named = Mission::robot_of(text);
+        let is_this = named.is_some() && named.as_deref() == robot.as_ref().map(RobotFile::source);
+        Mission::parse_under(source, text, robot.clone().filter(|_| is_this))
+    };
     for seed in 0..cotama_golden::figure::<u64>("supervised.missions") {
         let file = File::right(seed);
-        let mission = Mission::parse("right.toml", &file.to_string())
+        let mission = read("right.toml", &file.to_string())
             .unwrap_or_else(|errors| panic!("{seed}: {errors}"));
-        assert_eq!(mission.supervisor().unwrap().places.len(), file.objectives.len() + 4);
+        let places: Vec<_> = mission.steps().iter().map(|it| it.name.clone()).collect();
+        let ids: Vec<_> = file.objectives.iter().map(|it| it.id.clone()).collect();
+        assert_eq!((mission.is_supervised(), places), (true, ids));
 
         let number = seed as usize % BREAKINGS.len();
         let (name, reason, breaks) = BREAKINGS[number];
         let mut file = file;
         breaks(&mut file);
-        let text = file.to_string();
-        let errors = Mission::parse("broken.toml", &text).expect_err(name);
+        let errors = read("broken.toml", &file.to_string()).expect_err(name);
         assert!(errors.to_string().contains(reason), "{seed}, {name}: {errors}");
         refused[number] += 1;
     }

@@ -1,8 +1,11 @@
 //! Effects of a unit more or less: ends of missions, limits, the order of files.
 
-use cotama_models::missions::faults::{EventKind, Faults, Incident, IncidentKind, Moment};
+use crate::file::File;
+use cotama_core::units::{Millimetres, Millis};
+use cotama_models::missions::faults::{EventKind, Faults};
 use cotama_models::missions::infeasible::Relaxation::{self, RaiseLimit, RaiseLimits};
 use cotama_models::missions::{Mission, MissionErrors, Unfolded, embedded};
+use cotama_models::robots::{Incident, IncidentKind, Moment};
 
 fn delivery_with(edits: &[(&str, &str)]) -> Result<Mission, MissionErrors> {
     let delivery = embedded::mission("delivery").unwrap();
@@ -21,7 +24,6 @@ id = "DriveC"
 does = "drive"
 x_start_mm = 80000
 x_end_mm = 90000
-tasks = ["MOV"]
 [run]
 event = [
     { x_mm = 80001, kind = "failure", mode = "SON1" },
@@ -45,7 +47,7 @@ fn an_event_at_the_end_of_a_shorter_mission_still_happens() {
     let places = |mission: &Unfolded| {
         let faults = &mission.run.faults;
         let events: Vec<_> = faults.events.iter().map(|it| it.x.0).collect();
-        let incidents: Vec<_> = faults.incidents.iter().map(place).collect();
+        let incidents: Vec<_> = faults.of_robot.iter().map(place).collect();
         (events, incidents)
     };
     // The file has them in the other order.
@@ -74,9 +76,10 @@ fn events_at_one_place_keep_the_order_of_the_file() {
         _ => unreachable!(),
     });
     assert_eq!(delays.collect::<Vec<_>>(), [(8_000, 2), (8_000, 3), (9_000, 1)]);
-    let fails = faults.incidents.iter().map(|it| match it.kind {
-        IncidentKind::Failure { mode, .. } => (place(it), mode.name(), true),
-        IncidentKind::Repair(mode) => (place(it), mode.name(), false),
+    let id = |it: usize| mission.robot().unwrap().robot().failures[it].id.as_str();
+    let fails = faults.of_robot.iter().map(|it| match it.kind {
+        IncidentKind::Failure { failure, .. } => (place(it), id(failure), true),
+        IncidentKind::Repair(failure) => (place(it), id(failure), false),
         IncidentKind::Operator { .. } => unreachable!(),
     });
     let expected = [(6_000, "RT1", false), (6_000, "RT1", true), (7_000, "SON1", true)];
@@ -86,13 +89,15 @@ fn events_at_one_place_keep_the_order_of_the_file() {
 #[test]
 fn half_a_standing_task_is_refused_even_if_unused() {
     let with = |line: &str| {
-        let text = format!("[fixed]\n{line}\n\n[motion_power]");
-        let said = delivery_with(&[("[motion_power]", &text)]).map_err(|it| it.to_string());
+        let mut file = File::right(0);
+        file.plain();
+        file.sections.insert_str(0, &format!("[fixed]\n{line}\n\n"));
+        let said = Mission::parse("plain.toml", &file.to_string()).map_err(|it| it.to_string());
         said.err().unwrap_or_default()
     };
     let lacks = |key: &str| {
         let help = format!("help: add `{key}`");
-        format!("delivery.toml:62:1: missing key `{key}` in `fixed`\n  {help}")
+        format!("plain.toml:8:1: missing key `{key}` in `fixed`\n  {help}")
     };
     assert_eq!(with(""), "");
     assert_eq!(with("turn_ms = 1"), lacks("turn_power_mw"));
@@ -106,34 +111,38 @@ fn moments_are_sorted_by_place_then_time_then_state() {
     let mission = delivery_with(&[]).unwrap();
     let text = r#"format = "panorama-faults/1"
         event = [
-            { fired = "permit.revoked", kind = "failure", mode = "RT1" },
-            { during = "Teleprogrammed", after_ms = 1, kind = "failure", mode = "RT1" },
+            { during = "Waits", after_ms = 8, kind = "failure", mode = "RT1" },
+            { during = "Teleprogramming", after_ms = 1, kind = "failure", mode = "RT1" },
             { during = "Following", after_ms = 2, kind = "failure", mode = "RT1" },
             { during = "Planning", after_ms = 4, kind = "failure", mode = "RT1" },
-            { during = "Planning", after_ms = 3, kind = "failure", mode = "RT1" },
+            { during = "Planning", kind = "failure", mode = "RT1" },
             { t_ms = 6, kind = "failure", mode = "RT1" },
             { t_ms = 5, kind = "failure", mode = "RT1" },
             { x_mm = 7, kind = "failure", mode = "RT1" },
         ]"#;
     let faults = Faults::parse("faults.toml", text, &mission).unwrap();
-    let said: Vec<_> = faults.incidents.iter().map(|it| it.when.to_string()).collect();
+    let said: Vec<_> = faults.of_robot.iter().map(|it| it.when).collect();
+    let sub_objectives = &mission.robot().unwrap().robot().sub_objectives;
+    let during = |name: &str, after| {
+        Moment::During(sub_objectives.iter().position(|it| it.name == name).unwrap(), Millis(after))
+    };
     assert_eq!(
         said,
         [
-            "at 0.0 m",
-            "at 0.005 s",
-            "at 0.006 s",
-            "0.003 s after Planning is first reached",
-            "0.004 s after Planning is first reached",
-            "0.002 s after Following is first reached",
-            "0.001 s after Teleprogrammed is first reached",
-            "0.000 s after permit.revoked first fires",
+            Moment::Place(Millimetres(7)),
+            Moment::At(Millis(5)),
+            Moment::At(Millis(6)),
+            during("Planning", 0),
+            during("Planning", 4),
+            during("Following", 2),
+            during("Teleprogramming", 1),
+            Moment::Waiting(Millis(8)),
         ]
     );
 }
 
 #[test]
-fn a_moment_is_given_once_and_names_a_state_or_transition_of_the_supervisors() {
+fn a_moment_is_given_once_and_names_a_sub_objective_of_the_robot() {
     let mission = delivery_with(&[]).unwrap();
     let said = |event: &str| {
         let text = format!("format = \"panorama-faults/1\"\n[[event]]\n{event}\n");
@@ -141,19 +150,47 @@ fn a_moment_is_given_once_and_names_a_state_or_transition_of_the_supervisors() {
         Faults::parse("faults.toml", &text, &mission).unwrap_err().to_string()
     };
     assert_eq!(
-        said("fired = \"permit.revokd\""),
-        "faults.toml:3:9: unknown transition of the supervisors `permit.revokd`; did you mean \
-         `permit.revoked`?\n  help: write `permit.revoked`"
+        said("during = \"Folowing\""),
+        "faults.toml:3:10: unknown sub-objective `Folowing`; did you mean `Following`?\n  \
+         help: write `Following`"
     );
-    let several = "faults.toml:4:8: one of `x_mm`, `t_ms`, `during` and `fired` says when, not \
-        several\n  help: leave out all but one";
-    assert_eq!(said("during = \"Planning\"\nfired = \"ls.l3\""), several.replace("4:8", "3:10"));
-    assert_eq!(said("fired = \"ls.l3\"\nt_ms = 3"), several);
-    assert_eq!(
-        said("t_ms = 3\nafter_ms = 3"),
-        "faults.toml:4:12: `after_ms` is counted from what the supervisors do\n  \
-         help: add `during` or `fired`, or write `t_ms`"
+    let several = "faults.toml:2:1: one of `x_mm`, `t_ms` and `during` says when, not several\n  \
+                   help: leave out all but one";
+    assert_eq!(said("during = \"Planning\"\nt_ms = 3"), several);
+    assert_eq!(said("x_mm = 3\nduring = \"Waits\""), several);
+    assert_eq!(said("t_ms = 3\nx_mm = 3"), several);
+    let until = several.replace(
+        "`x_mm`, `t_ms` and `during`",
+        "`until_x_mm`, `until_t_ms` and \
+                                `until_during`",
     );
+    assert_eq!(said("x_mm = 3\nuntil_x_mm = 3\nuntil_t_ms = 3"), until);
+    // What is counted from a sub-objective needs one.
+    let unknown = said("t_ms = 3\nafter_ms = 3");
+    assert!(
+        unknown.starts_with("faults.toml:4:1: unknown key `after_ms` in this `event`"),
+        "{unknown}"
+    );
+}
+
+#[test]
+fn repairs_and_answers_happen_at_places_alone() {
+    let mission = delivery_with(&[]).unwrap();
+    let read = |event: &str| {
+        let text = format!("format = \"panorama-faults/1\"\n[[event]]\n{event}\n");
+        Faults::parse("faults.toml", &text, &mission).map_err(|it| it.to_string())
+    };
+    let refused = "faults.toml:2:1: this happens at a place\n  help: write `x_mm`";
+    let kinds = [
+        "kind = \"repair\"\nmode = \"RT1\"",
+        "kind = \"operator\"\nanswers = [\"give_up\"]\ndelay_ms = 1",
+    ];
+    for kind in kinds {
+        for when in ["t_ms = 1", "during = \"Following\"", "during = \"Waits\""] {
+            assert_eq!(read(&format!("{when}\n{kind}")).unwrap_err(), refused, "{kind}");
+        }
+        assert!(read(&format!("x_mm = 1\n{kind}")).is_ok(), "{kind}");
+    }
 }
 
 /// A limit that no plan keeps is no error of the file, as without supervisors: who plans says so.

@@ -26,67 +26,76 @@ pub(crate) struct Objective {
     pub(crate) does: Option<String>,
     pub(crate) start: u64,
     pub(crate) end: u64,
-    pub(crate) task: String,
+    /// The task that the file names, which it can leave to what the objective does.
+    pub(crate) task: Option<&'static str>,
 }
 
 impl Objective {
     pub(crate) fn new(id: &str, does: &str, start: u64, end: u64) -> Self {
-        let task = match does {
-            "drive" => "MOV",
-            "receive" => "RCV",
-            "deliver" => "DLV",
-            _ => "WAI",
-        };
-        Self { id: id.into(), does: Some(does.into()), start, end, task: task.into() }
+        Self { id: id.into(), does: Some(does.into()), start, end, task: None }
+    }
+
+    /// The task that leads what it does.
+    fn own_task(&self) -> &'static str {
+        match self.does.as_deref() {
+            Some("drive") => "MOV",
+            Some("receive") => "RCV",
+            Some("deliver") => "DLV",
+            Some("wait") => "WAI",
+            _ => "GRASP",
+        }
     }
 }
 
+/// An option of a task.
 pub(crate) struct Option_ {
-    pub(crate) id: String,
+    pub(crate) id: &'static str,
     pub(crate) task: &'static str,
-    pub(crate) configuration: Option<String>,
-    pub(crate) needs: Vec<String>,
+    pub(crate) needs: Option<&'static str>,
     /// Further lines.
-    pub(crate) more: String,
+    pub(crate) more: &'static str,
 }
 
 /// A mission file.
 pub(crate) struct File {
-    pub(crate) supervision: String,
+    pub(crate) format: &'static str,
+    pub(crate) robot: Option<&'static str>,
     pub(crate) path_length: u64,
     pub(crate) limits: [u64; 2],
-    pub(crate) modules: Vec<String>,
+    /// Further sections.
+    pub(crate) sections: String,
     pub(crate) options: Vec<Option_>,
     pub(crate) objectives: Vec<Objective>,
     pub(crate) zones: String,
     pub(crate) events: String,
 }
 
-const MODULES: [&str; 11] =
-    ["P3D", "SIM", "UST", "MCL", "NAV", "PPL", "GUI", "SMZ", "DVZ", "LAN", "CAM"];
 const MODES: [&str; 6] = ["RT1", "LOC2", "SON1", "COL1", "COM1", "OPR1"];
-const ANSWERS: [&str; 7] = [
-    "\"teleoperate\", \"teleprogram\", \"path\"",
-    "\"teleoperate\", \"goal\"",
-    "\"teleprogram\", \"waypoints\"",
-    "\"teleprogram\", \"path\"",
+const ANSWERS: [&str; 6] = [
+    "\"Teleoperation\", \"Teleprogramming\", \"done\"",
+    "\"Teleoperation\", \"done\"",
+    "\"Teleprogramming\", \"done\"",
     "\"give_up\"",
-    "\"teleoperate\", \"give_up\"",
-    "\"teleoperate\", \"teleprogram\", \"waypoints\"",
+    "\"Teleoperation\", \"give_up\"",
+    "\"Teleprogramming\", \"Teleoperation\", \"done\"",
 ];
+/// What a plain mission says itself, and one under supervisors leaves to the file of its robot.
+const BODY: &str = "\
+[robot]
+mass_g = 9000
+speed_max_mm_s = 300
+impact_energy_max_mj = 4000
+[motion_power]
+c0 = 4890
+c1 = 7400
+c2 = 0
+[hardware.base]
+units = 1
+power_mw = 0
+";
 
-fn owned(names: &[&str]) -> Vec<String> {
-    names.iter().map(|&name| name.into()).collect()
-}
-
-fn configured(id: &str, needs: &[&str], more: &str) -> Option_ {
-    let configuration = Some(id.into());
-    Option_ { id: id.into(), task: "MOV", configuration, needs: owned(needs), more: more.into() }
-}
-
-fn standing(id: &str, task: &'static str) -> Option_ {
-    let more = "duration_ms = 20000\npower_mw = 4600\n".into();
-    Option_ { id: id.into(), task, configuration: None, needs: owned(&["P3D"]), more }
+fn standing(id: &'static str, task: &'static str) -> Option_ {
+    Option_ { id, task, needs: None, more: "duration_ms = 20000\npower_mw = 4600\n" }
 }
 
 impl File {
@@ -104,7 +113,7 @@ impl File {
         for _ in 0..=random.below(3) {
             for does in ["receive", "deliver"] {
                 if random.below(3) == 0 {
-                    add("wait", 0, &mut x, &mut objectives);
+                    add(random.one_of(&["wait", "grasp"]), 0, &mut x, &mut objectives);
                 }
                 for _ in 0..=random.below(2) {
                     add("drive", 1000 * (1 + random.below(30)), &mut x, &mut objectives);
@@ -112,51 +121,45 @@ impl File {
                 add(does, 0, &mut x, &mut objectives);
             }
         }
-        let optimal = ["P3D", "SIM", "UST", "MCL", "NAV", "SMZ"];
-        let mut options = vec![
-            configured("PF.OPT", &optimal, "quality_per_dm = 4\n"),
-            configured("PF.OPTR", &optimal, "quality_per_dm = 3\n"),
-            configured("PF.ODO", &["P3D", "SIM", "UST", "NAV", "SMZ"], ""),
-            configured("PF.DEG", &["P3D", "NAV", "GUI"], "speed_max_mm_s = 150\n"),
-        ];
-        // The operator can drive, so that not all of them are needed.
-        for option in (1..4).rev() {
-            if random.below(4) == 0 {
-                options.remove(option);
-            }
+        for it in &mut objectives {
+            it.task = (random.below(2) == 0).then(|| it.own_task());
         }
-        options.extend([standing("in", "RCV"), standing("over", "DLV"), standing("pause", "WAI")]);
-        let mut zones = String::new();
-        for zone in 0..random.below(3) {
-            let start = random.below(x);
-            let end = start + 1 + random.below(x - start);
-            let hardware = random.one_of(&[
-                "",
-                "require_hardware = \"UST\"\n",
-                "require_hardware = \"P3D\"\n",
-            ]);
-            let _ = write!(
-                zones,
-                "[[zone]]\nid = \"zone{zone}\"\nx_start_mm = {start}\nx_end_mm = \
-                 {end}\nspeed_max_mm_s = 200\n{hardware}"
-            );
-        }
-        let mut events = String::new();
-        for _ in 0..random.below(4) {
-            let mode = random.one_of(&MODES);
-            events += &failure(random.below(x + 1), mode);
-            events += &operator(random.below(x + 1), random.one_of(&ANSWERS));
+        let tasks = [("in", "RCV"), ("over", "DLV"), ("pause", "WAI"), ("grip", "GRASP")];
+        let mut options: Vec<_> = tasks.into_iter().map(|it| standing(it.0, it.1)).collect();
+        for it in &mut options {
+            it.needs = (random.below(2) == 0).then_some("{}");
         }
         Self {
-            supervision: "[supervision]\ndecides = \"cotama\"\n".into(),
+            format: "panorama-mission/2",
+            robot: Some("p3dx-delivery"),
             path_length: x,
             limits: [100_000_000, 1_000_000_000],
-            modules: owned(&MODULES),
+            sections: String::new(),
             options,
             objectives,
-            zones,
-            events,
+            zones: zones(&mut random, x),
+            events: events(&mut random, x),
         }
+    }
+
+    /// Makes a plain mission of it, which says itself what its robot is, but for what objectives
+    /// do.
+    pub(crate) fn without_robot(&mut self) {
+        (self.format, self.robot) = ("panorama-mission/1", None);
+        self.sections += BODY;
+        let drive = Option_ { id: "drive", task: "MOV", needs: Some("{ base = 1 }"), more: "" };
+        self.options.iter_mut().for_each(|it| it.needs = Some("{}"));
+        self.options.push(drive);
+        for it in &mut self.objectives {
+            it.task = Some(it.own_task());
+        }
+        (self.zones, self.events) = (String::new(), String::new());
+    }
+
+    /// Makes a right plain mission of it.
+    pub(crate) fn plain(&mut self) {
+        self.without_robot();
+        self.objectives.iter_mut().for_each(|it| it.does = None);
     }
 
     /// Adds drives at the end, up to so many objectives.
@@ -177,14 +180,49 @@ impl File {
     pub(crate) fn last(&self, does: &str) -> usize {
         self.objectives.iter().rposition(|it| it.does.as_deref() == Some(does)).unwrap()
     }
-
-    pub(crate) fn without_module(&mut self, module: &str) {
-        self.modules.retain(|it| it != module);
-    }
 }
 
-pub(crate) fn failure(x: u64, mode: &str) -> String {
-    format!("[[run.event]]\nx_mm = {x}\nkind = \"failure\"\nmode = \"{mode}\"\n")
+fn zones(random: &mut Random, path_length: u64) -> String {
+    let mut zones = String::new();
+    for zone in 0..random.below(3) {
+        let start = random.below(path_length);
+        let end = start + 1 + random.below(path_length - start);
+        let requires =
+            random.one_of(&["", "require_hardware = \"PF.DEG\"\n", "require_tio = \"PF.DEG\"\n"]);
+        let _ = write!(
+            zones,
+            "[[zone]]\nid = \"zone{zone}\"\nx_start_mm = {start}\nx_end_mm = \
+             {end}\nspeed_max_mm_s = 200\n{requires}"
+        );
+    }
+    zones
+}
+
+fn events(random: &mut Random, path_length: u64) -> String {
+    let mut events = String::new();
+    for _ in 0..random.below(4) {
+        let (x, after) = (random.below(path_length + 1), random.below(60_000));
+        let when = match random.below(4) {
+            0 => format!("t_ms = {after}"),
+            1 => format!("during = \"Following\"\nafter_ms = {after}"),
+            2 => "during = \"Waits\"".to_owned(),
+            _ => format!("x_mm = {x}"),
+        };
+        let until = random.one_of(&["", "until_t_ms = 90000\n", "until_during = \"Waits\"\n"]);
+        events += &(failure(&when, random.one_of(&MODES)) + until);
+        events += &operator(random.below(path_length + 1), random.one_of(&ANSWERS));
+        let (kind, more) = random.one_of(&[
+            ("repair", "mode = \"RT1\""),
+            ("obstacle", "delay_ms = 400"),
+            ("odometry", "extra_mm = 30"),
+        ]);
+        let _ = writeln!(events, "[[run.event]]\nx_mm = {x}\nkind = \"{kind}\"\n{more}");
+    }
+    events
+}
+
+pub(crate) fn failure(when: &str, mode: &str) -> String {
+    format!("[[run.event]]\n{when}\nkind = \"failure\"\nmode = \"{mode}\"\n")
 }
 
 pub(crate) fn operator(x: u64, answers: &str) -> String {
@@ -195,32 +233,33 @@ pub(crate) fn operator(x: u64, answers: &str) -> String {
 
 impl fmt::Display for File {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { supervision, path_length, limits: [duration, energy], .. } = self;
+        let Self { format, robot, path_length, limits: [duration, energy], .. } = self;
+        writeln!(f, "format = \"{format}\"\nname = \"generated\"")?;
+        if let Some(robot) = robot {
+            writeln!(f, "robot = \"{robot}\"")?;
+        }
         writeln!(
             f,
-            "format = \"panorama-mission/1\"\nname = \"generated\"\npath_length_mm = {path_length}"
+            "path_length_mm = {path_length}\n[limits]\norder = [\"duration\", \"energy\"]"
         )?;
-        write!(f, "{supervision}")?;
-        writeln!(f, "[limits]\norder = [\"duration\", \"energy\"]\nduration_ms = {duration}")?;
-        writeln!(f, "energy_mj = {energy}\n[robot]\nmass_g = 9000\nspeed_max_mm_s = 300")?;
-        writeln!(f, "impact_energy_max_mj = 4000\n[motion_power]\nc0 = 4890\nc1 = 7400\nc2 = 0")?;
-        for module in &self.modules {
-            writeln!(f, "[hardware.{module}]\nunits = 1\npower_mw = 0")?;
-        }
-        for Option_ { id, task, configuration, needs, more } in &self.options {
+        writeln!(f, "duration_ms = {duration}\nenergy_mj = {energy}")?;
+        f.write_str(&self.sections)?;
+        for Option_ { id, task, needs, more } in &self.options {
             writeln!(f, "[[tio]]\nid = \"{id}\"\ntask = \"{task}\"")?;
-            if let Some(configuration) = configuration {
-                writeln!(f, "configuration = \"{configuration}\"")?;
+            if let Some(needs) = needs {
+                writeln!(f, "needs = {needs}")?;
             }
-            let needs: Vec<_> = needs.iter().map(|it| format!("{it} = 1")).collect();
-            write!(f, "needs = {{ {} }}\n{more}", needs.join(", "))?;
+            f.write_str(more)?;
         }
         for Objective { id, does, start, end, task } in &self.objectives {
             writeln!(f, "[[objective]]\nid = \"{id}\"")?;
             if let Some(does) = does {
                 writeln!(f, "does = \"{does}\"")?;
             }
-            writeln!(f, "x_start_mm = {start}\nx_end_mm = {end}\ntasks = [\"{task}\"]")?;
+            writeln!(f, "x_start_mm = {start}\nx_end_mm = {end}")?;
+            if let Some(task) = task {
+                writeln!(f, "tasks = [\"{task}\"]")?;
+            }
         }
         write!(f, "{}{}", self.zones, self.events)
     }

@@ -1,7 +1,7 @@
-//! Supervised missions: the delivery, the net of its supervisor and its mutants, and generated
-//! mission files, right and broken. The messages of the broken ones are in
-//! `tests/golden/supervised.txt`; `UPDATE_GOLDEN=1 cargo test -p cotama-models --test supervised`
-//! writes them again.
+//! Missions under supervisors: the delivery, global supervisors made from objectives, and mission
+//! files that are generated, right and broken; and the supervisors that are written by hand. The
+//! messages about broken files are in `tests/golden/supervised.txt`;
+//! `UPDATE_GOLDEN=1 cargo test -p cotama-models --test supervised` writes them again.
 #![cfg(feature = "std")]
 
 mod broken;

@@ -3,10 +3,8 @@
 use crate::robots;
 use cotama_core::units::{Millimetres, Millis};
 
-mod incidents;
 mod recorded;
 
-pub use incidents::{Act, Answer, Incident, IncidentKind, Moment};
 pub use recorded::{Adapts, Ending, Expected, FaultsFile, OUTCOMES, PlannedBy};
 
 /// The format that a file of faults must name.
@@ -49,11 +47,9 @@ pub struct Faults {
     pub events: Vec<Event>,
     /// The random events, which occur anywhere.
     pub random: Vec<RandomEvent>,
-    /// The incidents that the supervisors of a supervised mission have to deal with, sorted by
-    /// moment; in files these are events of the kinds `failure`, `repair` and `operator`. A plan,
-    /// and a run without supervisors, knows nothing of them.
-    pub incidents: Vec<Incident>,
-    /// The same of a mission whose robot has a file of its own.
+    /// The incidents that the supervisors of a mission's robot have to deal with, sorted by moment;
+    /// in files these are events of the kinds `failure`, `repair` and `operator`. A plan knows
+    /// nothing of them.
     pub of_robot: Vec<robots::Incident>,
 }
 

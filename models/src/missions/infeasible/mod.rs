@@ -341,7 +341,7 @@ fn dropped_objectives(
         (0..all).partition(|&objective| mission.objectives[objective].travels());
     // Only supervised missions have rules that an objective left out can break.
     let whole = |objective: &usize| {
-        mission.supervision.is_none() || mission.without_objective(*objective).is_some()
+        mission.under.is_none() || mission.without_objective(*objective).is_some()
     };
     for objective in standing.into_iter().filter(|_| all > 1).filter(whole) {
         if trials.feasible(&Trial { without: objective..objective + 1, ..as_is.clone() }) {

@@ -28,8 +28,6 @@ pub(super) struct Names<'n> {
     pub(super) path_length: Option<Millimetres>,
     pub(super) zones: &'n [Entry<Zone>],
     pub(super) hardware: &'n [Entry<Hardware>],
-    /// Whether the mission is supervised; `None` when that could not be read.
-    pub(super) supervised: Option<bool>,
     /// The robot from a file whose supervisors decide, if it is one.
     pub(super) robot: Option<&'n Robot>,
 }

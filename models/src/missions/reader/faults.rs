@@ -2,17 +2,16 @@
 
 use super::entry::{Entry, Names, ids};
 use super::fields::{self, Fields, Sink};
-use super::incidents;
-use super::moments::{self, on_the_path};
+use super::moments::on_the_path;
 use super::recorded;
 use super::under;
 use crate::missions::definition::{Definition, Hardware, Zone};
 use crate::missions::diagnostic::{Diagnostic, MissionErrors};
 use crate::missions::faults::{
-    Event, EventKind, FORMAT, Faults, FaultsFile, Incident, Moment, PowerError, RandomEvent, Run,
+    Event, EventKind, FORMAT, Faults, FaultsFile, PowerError, RandomEvent, Run,
 };
 use crate::missions::known::{
-    AT_LEAST_ZERO, EVENTS, INCIDENTS, PER_KM, PERIODS, POSITIVE, POWER_ERRORS, RANDOM_EVENTS, UNITS,
+    AT_LEAST_ZERO, EVENTS, PER_KM, PERIODS, POSITIVE, POWER_ERRORS, RANDOM_EVENTS, UNITS,
 };
 use crate::robots;
 use cotama_core::units::{Millimetres, Millis};
@@ -66,9 +65,8 @@ impl FaultsFile {
         let kind = |it: &Hardware| Entry { id: it.name.clone(), item: Some(it.clone()) };
         let hardware: Vec<_> = mission.hardware.iter().map(kind).collect();
         let robot = mission.under.as_ref().map(|it| it.file.robot());
-        let supervised = Some(mission.supervision.is_some() || robot.is_some());
         let path_length = Some(mission.path_length);
-        let names = Names { path_length, zones: &zones, hardware: &hardware, supervised, robot };
+        let names = Names { path_length, zones: &zones, hardware: &hardware, robot };
         let file = fields::document(text, &sink, FORMAT, |mut root| {
             let faults = read(&mut root, &names);
             let planner = root.optional_table("planner").map(|it| it.map(recorded::planner));
@@ -107,18 +105,16 @@ fn read(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Faults> {
             tables.into_iter().map(|table| random_event(table, &mut seen)).collect();
         random.into_iter().collect::<Option<Vec<_>>>()
     });
-    let (mut events, mut incidents, mut of_robot) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut events, mut of_robot) = (Vec::new(), Vec::new());
     for happening in events_read?? {
         match happening {
             Scripted::Event(event) => events.push(event),
-            Scripted::Incident(incident) => incidents.push(incident),
             Scripted::OfRobot(incident) => of_robot.push(incident),
         }
     }
     events.sort_by_key(|event| event.x);
-    incidents.sort_by_key(|incident| incident.when.key());
     of_robot.sort_by_key(|incident| incident.when);
-    Some(Faults { power_errors: power_errors?, events, random: random??, incidents, of_robot })
+    Some(Faults { power_errors: power_errors?, events, random: random??, of_robot })
 }
 
 fn power_errors(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Vec<PowerError>> {
@@ -164,9 +160,12 @@ fn units(fields: &mut Fields<'_>, key: &'static str, names: &Names<'_>) -> Optio
 /// An entry of a script.
 enum Scripted {
     Event(Event),
-    Incident(Incident),
     OfRobot(robots::Incident),
 }
+
+/// How a mission gets supervisors.
+pub(super) const TO_A_ROBOT: &str =
+    "leave it out, or write `format = \"panorama-mission/2\"` and name a `robot`";
 
 fn event(mut fields: Fields<'_>, names: &Names<'_>) -> Option<Scripted> {
     if let Some(robot) = names.robot
@@ -174,22 +173,18 @@ fn event(mut fields: Fields<'_>, names: &Names<'_>) -> Option<Scripted> {
     {
         return under::incident(fields, robot, names).map(Scripted::OfRobot);
     }
-    let timed = incidents::is_timed(&fields);
-    let x = if timed { None } else { place(&mut fields) };
-    let kinds = [&EVENTS[..], &INCIDENTS].concat();
-    let Some(kind) = fields.choice("kind", "event", &kinds) else {
+    if names.robot.is_none() && under::is_incident(&fields) {
+        let message = "this event is for missions under the supervisors of a robot";
+        let it = Diagnostic::new(fields.whole(), message, "no supervisors");
+        fields.report(it.help(TO_A_ROBOT));
+        fields.abandon();
+        return None;
+    }
+    let x = place(&mut fields);
+    let Some(kind) = fields.choice("kind", "event", &EVENTS) else {
         fields.abandon();
         return None;
     };
-    if incidents::is_incident(&fields, kind) {
-        let found = incidents::incident(&mut fields, kind, names);
-        let timed = timed && kind == "failure";
-        let when = if timed { moments::start(&mut fields) } else { x.map(Moment::Place) };
-        on_the_path(&fields, "x_mm", x, names);
-        fields.finish();
-        return Some(Scripted::Incident(Incident { when: when?, kind: found? }));
-    }
-    let x = if timed { place(&mut fields) } else { x };
     let kind = match kind {
         "obstacle" => delay(&mut fields),
         "odometry" => extra(&mut fields),

@@ -4,7 +4,7 @@ use super::entry::{Entry, Names, ids};
 use super::faults;
 use super::fields::{Fields, Reported};
 use super::path::{objective, one_after_the_other, task, zone};
-use super::supervision::{self, Supervised};
+use super::supervision;
 use crate::missions::definition::{AXES, Definition, Hardware, Robot, Standing, Task, Tio};
 use crate::missions::diagnostic::{Diagnostic, Spanned};
 use crate::missions::known::{
@@ -32,24 +32,24 @@ pub(in crate::missions) fn definition_of(
         root.index_of(named, "robot", names.into_iter());
     }
     let of = robot.zip(named).and_then(|(file, named)| Under::of(file, named.span, root.sink()));
-    let supervised = Supervised::by_robot();
     let path_length = root.integer("path_length_mm", POSITIVE).map(Millimetres);
     let limits = root.table("limits").and_then(limits);
     let planned_for = root.optional_table("plan").map(|plan| plan.and_then(planned_for));
-    let of = of?;
+    let Some(of) = of else {
+        root.abandon();
+        return None;
+    };
     let entry = |it: &Hardware| Entry { id: it.name.clone(), item: Some(it.clone()) };
     let hardware: Vec<_> = of.hardware.iter().map(entry).collect();
-    let mut tios: Vec<_> = all(root.tables("tio", false), |it| tio(it, &hardware, &supervised));
+    let mut tios: Vec<_> = all(root.tables("tio", false), |it| tio(it, &hardware, true));
     tios.extend(of.tios.into_iter().map(|it| Entry { id: it.id.clone(), item: Some(it) }));
     let zones = all(root.tables("zone", false), |table| zone(table, path_length, &hardware, &tios));
-    let objectives =
-        all(root.tables("objective", true), |table| objective(table, &tios, &supervised));
+    let objectives = all(root.tables("objective", true), |table| objective(table, &tios, true));
     one_after_the_other(&root, path_length, &objectives);
     let names = Names {
         path_length,
         zones: &zones,
         hardware: &hardware,
-        supervised: supervised.known(),
         robot: robot.map(RobotFile::robot),
     };
     let run = root.optional_table("run").ok().and_then(|run| faults::run(run, &names));
@@ -70,8 +70,6 @@ pub(in crate::missions) fn definition_of(
         tios: complete(tios)?,
         objectives: complete(objectives)?,
         zones: complete(zones)?,
-        supervision: None,
-        recovery: false,
         under: Some(of.under),
         run: run?,
     })
@@ -80,7 +78,7 @@ pub(in crate::missions) fn definition_of(
 /// Reads the whole file.
 pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition> {
     let name = name(&mut root);
-    let supervised = supervision::read(&mut root);
+    supervision::refuse(&mut root);
     let path_length = root.integer("path_length_mm", POSITIVE).map(Millimetres);
     let limits = root.table("limits").and_then(limits);
     if let Ok(Some(table)) = root.optional_table("rounding") {
@@ -91,26 +89,18 @@ pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition
     let motion_power = root.table("motion_power").and_then(motion_power);
     let hardware =
         root.table("hardware").and_then(hardware).unwrap_or_else(|| vec![Entry::unreadable()]);
-    let mut tios = all(root.tables("tio", true), |table| tio(table, &hardware, &supervised));
+    let mut tios = all(root.tables("tio", true), |table| tio(table, &hardware, false));
     standing(&mut root, &mut tios);
     let zones = all(root.tables("zone", false), |table| zone(table, path_length, &hardware, &tios));
-    let objectives =
-        all(root.tables("objective", true), |table| objective(table, &tios, &supervised));
+    let objectives = all(root.tables("objective", true), |table| objective(table, &tios, false));
     one_after_the_other(&root, path_length, &objectives);
-    let names = Names {
-        path_length,
-        zones: &zones,
-        hardware: &hardware,
-        supervised: supervised.known(),
-        robot: None,
-    };
+    let names = Names { path_length, zones: &zones, hardware: &hardware, robot: None };
     let run = root.optional_table("run").ok().and_then(|run| faults::run(run, &names));
     unique(&root, "option", items(&tios).map(|it| (&it.id, &it.span)));
     unique(&root, "zone", items(&zones).map(|it| (&it.id, &it.span)));
     unique(&root, "objective", items(&objectives).map(|it| (&it.id, &it.span)));
     root.finish();
     let (limits, order) = limits?;
-    let (supervision, recovery) = supervised.get().ok()?.unzip();
     Some(Definition {
         name: name?,
         path_length: path_length?,
@@ -123,8 +113,6 @@ pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition
         tios: complete(tios)?,
         objectives: complete(objectives)?,
         zones: complete(zones)?,
-        supervision,
-        recovery: recovery.unwrap_or(false),
         under: None,
         run: run?,
     })
@@ -301,20 +289,16 @@ fn hardware(fields: Fields<'_>) -> Option<Vec<Entry<Hardware>>> {
     Some(kinds)
 }
 
-fn tio(
-    mut fields: Fields<'_>,
-    hardware: &[Entry<Hardware>],
-    supervised: &Supervised,
-) -> Entry<Tio> {
+fn tio(mut fields: Fields<'_>, hardware: &[Entry<Hardware>], supervised: bool) -> Entry<Tio> {
     let id = fields.id("id");
     let task = fields.text("task").and_then(|name| task(&fields, &name));
-    let needs = if supervised.is_by_robot() && !fields.has("needs") {
+    let needs = if supervised && !fields.has("needs") {
         Some(Equipment::NONE)
     } else {
         needs(&mut fields, hardware)
     };
     if let (true, Some(task @ (Task::Move | Task::Turn | Task::Detect | Task::Localise))) =
-        (supervised.is_by_robot(), task)
+        (supervised, task)
     {
         let message = format!("`{}` is done by the configurations of the robot", task.name());
         let it = Diagnostic::new(fields.span_of("task"), message, "not here");
@@ -326,7 +310,6 @@ fn tio(
     let quality_per_dm = fields.optional_integer("quality_per_dm", QUALITIES);
     let quality = fields.optional_integer("quality", QUALITIES);
     let standing = own_standing(&mut fields, task);
-    let configuration = supervision::configuration(&mut fields, supervised, task, hardware, needs);
     fields.finish();
     let Some(Spanned { value: id, span }) = id else { return Entry::unreadable() };
     let complete = || {
@@ -339,7 +322,6 @@ fn tio(
             quality_per_dm: quality_per_dm.ok()?.unwrap_or(0),
             quality: quality.ok()?.unwrap_or(0),
             standing: standing.ok()?,
-            configuration: configuration.ok()?,
         })
     };
     Entry { item: complete(), id }

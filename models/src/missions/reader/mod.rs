@@ -3,7 +3,6 @@
 mod entry;
 mod faults;
 pub(crate) mod fields;
-mod incidents;
 mod limits;
 mod mission;
 mod moments;

@@ -2,7 +2,7 @@
 
 use super::entry::{Entry, ids};
 use super::fields::{Fields, Reported};
-use super::supervision::{self, Supervised};
+use super::supervision;
 use crate::missions::definition::{
     Does, Hardware, HardwareRequirement, Objective, Task, Tio, Zone,
 };
@@ -79,7 +79,7 @@ fn required_hardware(
 pub(super) fn objective(
     mut fields: Fields<'_>,
     tios: &[Entry<Tio>],
-    supervised: &Supervised,
+    supervised: bool,
 ) -> Entry<Objective> {
     let id = fields.id("id");
     let does = supervision::does(&mut fields, supervised);
@@ -87,7 +87,7 @@ pub(super) fn objective(
     let x_end = fields.integer("x_end_mm", AT_LEAST_ZERO).map(Millimetres);
     let doing = does.as_ref().map(|does| does.as_ref().map(|does| does.value));
     let way = x_start.zip(x_end);
-    let by_does = supervised.is_by_robot() && !fields.has("tasks");
+    let by_does = supervised && !fields.has("tasks");
     let known = by_does.then(|| match (&doing, way) {
         (Ok(Some(does)), Some(way)) => {
             let tasks = vec![does.task()];

@@ -27,7 +27,7 @@ pub const LIMITS: [u64; 2] = [900_000, 7_200_000];
 /// The axes in their order of treatment.
 pub const ORDER: [usize; 2] = [0, 1];
 /// All the hardware of the robot.
-pub const AVAILABLE: Equipment = units(0x0111_1111_1111);
+pub const AVAILABLE: Equipment = units(0x1111);
 
 /// The activities.
 #[rustfmt::skip]
@@ -48,22 +48,21 @@ pub static LABELS: [&[&str]; 4] = [
 ];
 
 #[rustfmt::skip]
-static ALTERNATIVES_0: [Alternative; 5] = [
-    travel(300, 7_720, 0x1001_1111, 5),
-    travel(300, 7_720, 0x1001_1111, 4),
-    travel(300, 7_720, 0x0001_0101_1111, 3),
-    travel(300, 7_720, 0x1001_0111, 2),
-    travel(150, 6_000, 0x0101_0001, 1),
+static ALTERNATIVES_0: [Alternative; 4] = [
+    travel(300, 7_720, 0x1, 4),
+    travel(300, 7_720, 0x10, 3),
+    travel(300, 7_720, 0x100, 2),
+    travel(150, 6_000, 0x1000, 1),
 ];
 
 #[rustfmt::skip]
 static ALTERNATIVES_1: [Alternative; 1] = [
-    stand(30_000, 4_600, 0x1, 0),
+    stand(30_000, 4_600, 0x0, 0),
 ];
 
 #[rustfmt::skip]
-static LABELS_0: [&str; 5] = [
-    "PF.OPT", "PF.OPTR", "PF.DVZ", "PF.ODO", "PF.DEG",
+static LABELS_0: [&str; 4] = [
+    "PF.OPT", "PF.DVZ", "PF.ODO", "PF.DEG",
 ];
 
 #[rustfmt::skip]

@@ -2,7 +2,7 @@
 //!
 //! | net | is made of |
 //! | --- | --- |
-//! | `gs`, global supervisor: one drive after another, or security | nothing: all have the same |
+//! | `gs`, global supervisor: objectives in their order, or security | the mission |
 //! | `ls`, local supervisor | sub-objectives, in their order; or a net of one's own |
 //! | adapters, named after the sub-objectives that have several configurations | ranks, losses |
 //! | `permit`, the permit to move | nothing: [`permit`] |
@@ -15,6 +15,7 @@
 
 mod cubes;
 mod draft;
+mod global;
 mod joined;
 mod nets;
 mod observing;
@@ -22,6 +23,9 @@ mod own;
 mod rust_source;
 
 pub use cotama_core::system::owned::OwnedSystem;
+pub(super) use global::begins;
+pub(crate) use global::global;
+pub use global::{MAX_STEPS, RESERVED, Step};
 pub use own::ReadNet;
 pub(super) use own::defects;
 pub use rust_source::to_rust;
@@ -30,7 +34,8 @@ use super::{Mode, Robot, SubObjective};
 use crate::cotama::permit;
 use cotama_core::net::owned::OwnedNet;
 use joined::Joined;
-use nets::{configuration, has_adapter, lost, parts};
+pub(super) use nets::lost;
+use nets::{configuration, has_adapter, parts};
 
 /// Returns a name as nets have it: letters, digits and `_`.
 pub(crate) fn word(name: &str) -> String {
@@ -106,11 +111,27 @@ pub(super) fn cannot_run(robot: &Robot, it: usize) -> Option<String> {
 /// system.with(|system| assert_eq!(system.defect(), None));
 /// ```
 pub fn system(robot: &Robot) -> OwnedSystem {
+    of_mission(robot, &[])
+}
+
+/// The same with the global supervisor of a mission, made from its objectives.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_models::robots::supervisors;
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let robot = mission.robot().unwrap().robot();
+/// let system = supervisors::of_mission(robot, &mission.steps());
+/// let places: Vec<_> = system.nets[0].1.places.iter().map(|it| it.name.as_str()).collect();
+/// assert_eq!(places[..6], ["Wait", "DriveA", "Receive", "DriveB", "Deliver", "Done"]);
+/// ```
+pub fn of_mission(robot: &Robot, steps: &[Step]) -> OwnedSystem {
     let (own, operator) = (parts(robot, Mode::Autonomous), parts(robot, Mode::Operator));
     let all: Vec<_> = own.iter().chain(&operator).collect();
     let doc = format!("The supervisors of {}, made from its file.", robot.name);
     let mut system = Joined::new(&word(&robot.name), &doc);
-    system.net("gs", nets::global());
+    system.net("gs", global::global(steps));
     system.net("ls", robot.local.clone().unwrap_or_else(|| nets::local(robot)));
     for it in all.iter().filter(|it| has_adapter(it.is)) {
         system.net(&adapter(it.is), nets::adapter(robot, it));

@@ -25,7 +25,7 @@ pub(super) fn has_adapter(it: &SubObjective) -> bool {
 }
 
 /// The flag of a loss in every net.
-pub(super) fn lost(robot: &Robot, loss: usize) -> String {
+pub(in crate::robots) fn lost(robot: &Robot, loss: usize) -> String {
     format!("lost_{}", robot.losses.losses.get(loss).map_or_else(String::new, |it| word(&it.name)))
 }
 
@@ -48,34 +48,6 @@ fn losses(robot: &Robot, net: &mut Draft) {
     for loss in 0..robot.losses.losses.len() {
         net.shared(&lost(robot, loss));
     }
-}
-
-/// The global supervisor of a robot without a mission: one drive after another, or security
-/// (Durand et al., TAROS 2010, Section V.C.1).
-pub(super) fn global() -> OwnedNet {
-    let mut net = Draft::new("global", "Global supervisor: one drive after another, or security.");
-    net.place("Wait", 1, "No drive.");
-    net.place("Drive", 0, "A drive is under way.");
-    net.place("Security", 0, "Stopping for good.");
-    net.place("Safe", 0, "Stopped for good, alarm given.");
-    net.event("global_event", "The objective cannot be managed, or something vital is lost.");
-    net.event("no_way", "No configuration is left, and nobody can be asked.");
-    net.event("drive_done", "The drive has reached its goal.");
-    net.event("drive_wanted", "A drive is wanted.");
-    net.event("stopped", "The robot stands.");
-    for it in ["start_drive", "gs_abort", "halt", "alarm"] {
-        net.output(it, "");
-    }
-    net.line(Line::on("start", "drive_wanted").goes("Wait", "Drive").emits("start_drive"));
-    net.line(Line::on("done", "drive_done").goes("Drive", "Wait"));
-    for from in ["Wait", "Drive"] {
-        for (on, name) in [("global_event", "abort"), ("no_way", "give_up")] {
-            let line = Line::on(format!("{name}_{from}"), on).goes(from, "Security");
-            net.line(line.emits("gs_abort").emits("halt"));
-        }
-    }
-    net.line(Line::on("secured", "stopped").goes("Security", "Safe").emits("alarm"));
-    net.done()
 }
 
 /// Step of the local supervisor when a sub-objective is to start.

@@ -3,17 +3,19 @@
 use super::draft::Draft;
 use super::requirement::{Requirement, any};
 use super::team::Team;
-use crate::cotama::global;
+use crate::robots::supervisors::{Step, global};
+use crate::team::scenario::steps;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Arc, PlaceId};
 
 /// The net of a team whose robots are supervised, as one system: a task is a mission of the global
-/// supervisor ([`global`], Durand et al., TAROS 2010, V.C.1).
+/// supervisor of four [`steps`] (Durand et al., TAROS 2010, V.C.1).
 ///
 /// - A robot bids and acknowledges when its supervisor waits for a mission. To start its role is
 ///   `mission_received`; the role ends when the mission is `Done`, and the supervisor waits again.
 /// - Robots fail by their supervisors alone: a `global_event` makes one safe, at any time, as often
-///   as the team's failures. A safe robot gives its role back, or falls silent, and is out of work.
+///   as the team's failures; that no configuration is left and nobody can be asked is the same to
+///   the team. A safe robot gives its role back, or falls silent, and is out of work.
 /// - Who leaves its role for another reason begins anew: its supervisor waits again.
 ///
 /// The supervisors below the global one are left out: seen from the team they decide when a drive
@@ -42,8 +44,7 @@ pub fn supervised(team: &Team) -> OwnedNet {
 pub fn supervised_requirements(team: &Team) -> Vec<Requirement> {
     let robots = 1..=team.robots;
     let works = |r: usize| any((1..=team.tasks.len()).map(|t| format!("r{r}.executing.t{t}")));
-    let busy =
-        |r: usize| any(["DriveA", "Receive", "DriveB", "Deliver"].map(|it| format!("r{r}.{it}")));
+    let busy = |r: usize| any(steps().iter().map(|it| format!("r{r}.{}", it.place())));
     let each =
         |of: &dyn Fn(usize) -> String| robots.clone().map(of).collect::<Vec<_>>().join(" & ");
     let all = [
@@ -71,17 +72,31 @@ pub fn supervised_requirements(team: &Team) -> Vec<Requirement> {
     all.into_iter().map(requirement).collect()
 }
 
-/// The places of a robot's supervisor, in the order of [`global`].
-type Supervisor = Vec<PlaceId>;
+/// The supervisor of a robot: its net, and where the places of that are among all.
+struct Supervisor<'n> {
+    net: &'n OwnedNet,
+    places: Vec<PlaceId>,
+}
 
-fn at(supervisor: &Supervisor, place: global::Place) -> Arc {
-    Arc { place: supervisor[PlaceId::from(place).0 as usize], weight: 1 }
+impl Supervisor<'_> {
+    /// Returns the arc from or to a place of this name.
+    fn at(&self, name: &str) -> Option<Arc> {
+        let place = self.net.places.iter().position(|it| it.name == name)?;
+        Some(Arc { place: *self.places.get(place)?, weight: 1 })
+    }
+
+    fn all(&self, arcs: &[Arc]) -> Vec<Arc> {
+        let place = |it: &Arc| Some(Arc { place: *self.places.get(it.place.0 as usize)?, ..*it });
+        arcs.iter().filter_map(place).collect()
+    }
 }
 
 impl Draft<'_> {
     /// Adds a supervisor for each robot, and ties the steps of the protocol to it.
     fn supervise(&mut self) {
-        let supervisors: Vec<_> = (1..=self.team.robots).map(|r| self.supervisor(r)).collect();
+        let net = global(&steps());
+        let supervisors = (1..=self.team.robots).map(|r| self.supervisor(r, &net));
+        let supervisors: Vec<_> = supervisors.collect();
         let mut steps = std::mem::take(&mut self.net.transitions);
         for (r, supervisor) in supervisors.iter().enumerate() {
             steps = steps.into_iter().flat_map(|it| self.tied(it, r, supervisor)).collect();
@@ -93,18 +108,18 @@ impl Draft<'_> {
         self.net.transitions = steps;
     }
 
-    fn supervisor(&mut self, number: usize) -> Supervisor {
+    fn supervisor<'n>(&mut self, number: usize, net: &'n OwnedNet) -> Supervisor<'n> {
         let first = self.net.places.len() as u32;
-        let places = global::NET.places.iter().map(|it| {
+        let places = net.places.iter().map(|it| {
             OwnedPlace::new(&format!("r{number}.{}", it.name), it.initial).at_most(it.bound)
         });
         self.net.places.extend(places);
-        (first..self.net.places.len() as u32).map(PlaceId).collect()
+        let places = (first..self.net.places.len() as u32).map(PlaceId).collect();
+        Supervisor { net, places }
     }
 
     /// A step of the protocol, as this robot's supervisor allows it.
-    fn tied(&self, it: OwnedTransition, r: usize, own: &Supervisor) -> Vec<OwnedTransition> {
-        use global::Place::{Deliver, Done, DriveA, DriveB, Receive, Safe, Security, Wait};
+    fn tied(&self, it: OwnedTransition, r: usize, own: &Supervisor<'_>) -> Vec<OwnedTransition> {
         let robot = &self.robots[r];
         let among =
             |arcs: &[Arc], places: &[PlaceId]| arcs.iter().any(|it| places.contains(&it.place));
@@ -120,53 +135,51 @@ impl Draft<'_> {
                 (joined(&it.take, take), joined(&it.read, read), joined(&it.give, give));
             OwnedTransition { name, take, read, give, ..it.clone() }
         };
-        let [wait, safe] = [Wait, Safe].map(|place| at(own, place));
+        let at = |place: &str| own.at(place).into_iter().collect::<Vec<_>>();
+        let [wait, done, safe] = ["Wait", "Done", "Safe"].map(at);
+        let objectives: Vec<_> = steps().iter().map(Step::place).collect();
+        let first = objectives.first().map_or_else(Vec::new, |it| at(it));
         if among(&it.take, &[self.failures]) && it.name.starts_with(&format!("r{}.", r + 1)) {
-            let mut it = with("", &[], &[safe], &[]);
+            let mut it = with("", &[], &safe, &[]);
             it.take.retain(|arc| arc.place != self.failures);
             it.give.retain(|arc| arc.place != self.failed);
             vec![it]
         } else if among(&it.give, &robot.executing) {
-            vec![with("", &[wait], &[], &[at(own, DriveA)])]
+            vec![with("", &wait, &[], &first)]
         } else if among(&it.take, &robot.executing) && among(&it.give, &completed) {
-            vec![with("", &[at(own, Done)], &[], &[wait])]
+            vec![with("", &done, &[], &wait)]
         } else if among(&it.take, &robot.executing) {
-            let leaves = |place| with(&format!(".{place:?}"), &[at(own, place)], &[], &[wait]);
-            let stays = |place| with(&format!(".{place:?}"), &[], &[at(own, place)], &[]);
-            let leaves = [DriveA, Receive, DriveB, Deliver, Done].map(leaves);
-            leaves.into_iter().chain([Security, Safe].map(stays)).collect()
+            let leaves = |place: &str| with(&format!(".{place}"), &at(place), &[], &wait);
+            let stays = |place: &str| with(&format!(".{place}"), &[], &at(place), &[]);
+            let on_mission = objectives.iter().map(String::as_str).chain(["Done"]);
+            on_mission.map(leaves).chain(["Security", "Safe"].map(stays)).collect()
         } else if among(&it.give, &bids)
             || among(&it.give, &acks) && among(&it.give, &robot.waiting)
         {
-            vec![with("", &[], &[wait], &[])]
+            vec![with("", &[], &wait, &[])]
         } else {
             vec![it]
         }
     }
 
     /// The steps of the supervisor that are none of the protocol.
-    fn own_steps(&self, r: usize, own: &Supervisor) -> Vec<OwnedTransition> {
-        let net = OwnedNet::from(&global::NET);
-        let places = |arcs: &[Arc]| -> Vec<Arc> {
-            arcs.iter().map(|it| Arc { place: own[it.place.0 as usize], ..*it }).collect()
-        };
-        let begins = |it: &OwnedTransition| {
-            it.take.iter().any(|arc| arc.place == global::Place::Wait.into())
-        };
+    fn own_steps(&self, r: usize, own: &Supervisor<'_>) -> Vec<OwnedTransition> {
         let one = |place: PlaceId| Arc { place, weight: 1 };
+        let wait = own.at("Wait").map(|it| it.place);
         let mut steps = Vec::new();
-        for it in &net.transitions {
-            let fails = it.name.starts_with("abort");
-            if begins(it) && !fails {
-                continue; // to start a role is this step
+        for it in &own.net.transitions {
+            let (mut take, mut give) = (own.all(&it.take), own.all(&it.give));
+            let abort = it.name.strip_prefix("abort_");
+            let fails = abort.is_some();
+            // To start a role is a step of the protocol; to give up is to fail.
+            let begins = take.iter().any(|arc| Some(arc.place) == wait);
+            if begins && !fails || it.name.starts_with("give_up_") {
+                continue;
             }
-            let from = &net.places[it.take[0].place.0 as usize].name;
-            let name = if fails {
-                format!("r{}.abort.{from}", r + 1)
-            } else {
-                format!("r{}.{}", r + 1, it.name)
+            let name = match abort {
+                Some(from) => format!("r{}.abort.{from}", r + 1),
+                None => format!("r{}.{}", r + 1, it.name),
             };
-            let (mut take, mut give) = (places(&it.take), places(&it.give));
             if fails {
                 take.push(one(self.failures));
                 give.push(one(self.failed));

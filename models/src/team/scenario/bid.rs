@@ -1,7 +1,7 @@
 //! Bids of the robots for roles: the time of the drives and of the hands, failures counted in.
 
+use super::worker::{drive_ms, pace, planning_ms};
 use super::{Give, Place, RoleSpec, Scenario, Spot, Take};
-use crate::cotama::{Configuration, PLANNING, drive_ms};
 use crate::team::bid::Bid;
 use crate::team::capability::{CapabilitySet, Robot};
 use crate::team::reliability::Reliability;
@@ -65,7 +65,7 @@ impl Scenario {
         }
         let drive = |from: Spot, to: Spot| {
             let way = self.floor.distance(from, to)?;
-            Some(PLANNING.0.saturating_add(drive_ms(way, pace)))
+            Some(planning_ms().saturating_add(drive_ms(way, pace)))
         };
         let costs = [
             drive(from, takes)?.saturating_add(ROUNDS),
@@ -109,7 +109,7 @@ impl Scenario {
         let outlook = Outlook {
             able: who.capabilities(),
             from: at(who.start),
-            pace: Configuration::FollowingOptimal.facts().speed.0,
+            pace: pace(0)?,
             ends: self.ends(task, role, at(object)),
             holds: false,
         };

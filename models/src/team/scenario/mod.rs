@@ -45,16 +45,17 @@ mod floor;
 mod reader;
 #[cfg(test)]
 mod tests;
+mod worker;
 mod writer;
 
 pub use bid::{Outlook, common_denominator};
 pub use floor::{Floor, Place, Spot};
 pub use reader::{FAULTS, FORMAT, FaultsOfTeam};
+pub use worker::{Row, drive_ms, pace, planning_ms, robot, steps};
 
 use super::capability::{Capability, CapabilitySet, Robot, Skill};
 use super::constraint::Constraint;
 use super::task::{Action, ActionPlan, Role};
-use crate::cotama::FailureMode;
 use cotama_core::team::Combine;
 
 /// Reads the drink service of the thesis (3.6), run 2, which is shipped.
@@ -281,7 +282,7 @@ pub enum FaultTime {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FaultKind {
     /// A robot fails.
-    Robot(usize, FailureMode),
+    Robot(usize, Row),
     /// The object of a task moves under the hand: it is to be taken again.
     Shifted(usize),
     /// The object of a task turns: these capabilities can no longer take it.

@@ -4,9 +4,8 @@ mod task;
 
 use super::{
     Fault, FaultKind, FaultTime, Floor, Formation, MAX_ROBOTS, Method, Place, Quality, RobotSpec,
-    Scenario, Stage,
+    Row, Scenario, Stage,
 };
-use crate::cotama::FailureMode;
 use crate::missions::faults::Expected;
 use crate::missions::reader::fields::{Fields, Reported, Sink, document, document_of_either};
 use crate::missions::{Diagnostic, MissionErrors, Spanned};
@@ -352,9 +351,9 @@ fn fault(mut fields: Fields<'_>, names: &Names) -> Option<Fault> {
             let robot = fields.text("robot");
             let robot = among(&fields, robot.as_ref(), "robot", &names.robots);
             let mode = fields.text("mode");
-            let modes = || FailureMode::ALL.iter().map(|it| it.name());
+            let modes = || Row::all().map(Row::name);
             let mode = mode.and_then(|it| fields.index_of(&it, "failure mode", modes()));
-            robot.zip(mode).map(|(robot, mode)| FaultKind::Robot(robot, FailureMode::ALL[mode]))
+            robot.zip(mode.and_then(Row::new)).map(|(robot, row)| FaultKind::Robot(robot, row))
         }
         [false, true, false] => {
             let task = fields.text("shifts");

@@ -4,9 +4,8 @@ mod made;
 
 use super::{
     Fault, FaultKind, FaultTime, Formation, Give, Method, Needs, Place, PlanSpec, RobotSpec,
-    RoleSpec, Scenario, Stage, Take, TaskSpec, service,
+    RoleSpec, Row, Scenario, Stage, Take, TaskSpec, service,
 };
-use crate::cotama::FailureMode;
 use crate::team::service::{BRING, FETCH, ORDER};
 use crate::team::{Capability, CapabilitySet, Reliability, Role, Skill};
 use cotama_core::team::Combine;
@@ -140,7 +139,7 @@ fn fault() -> impl Strategy<Value = Fault> {
         time,
         after_ms,
     });
-    let modes = prop::sample::select(FailureMode::ALL.to_vec());
+    let modes = prop::sample::select(Row::all().collect::<Vec<_>>());
     let what = prop_oneof![
         (0_usize..2, modes).prop_map(|(robot, mode)| FaultKind::Robot(robot, mode)),
         (0_usize..2).prop_map(FaultKind::Shifted),

@@ -1,9 +1,7 @@
 //! Values of keys: their units, what to write for a quantity in another one, and their few words.
 
 use super::Sink;
-use crate::cotama::Configuration;
 use crate::missions::Does;
-use crate::missions::known::configurations;
 use toml::de::DeValue;
 
 /// The unit that a key ends with, the unit of files, and how many of that it is.
@@ -92,12 +90,7 @@ pub(super) fn unit(key: &str) -> String {
 
 /// Lists what the value of a key may be, where it is one of few words; else empty.
 pub(super) fn values(key: &str) -> String {
-    let names: Vec<&str> = match key {
-        "configuration" => configurations().map(Configuration::name).collect(),
-        "does" => Does::NAMES.to_vec(),
-        _ => return String::new(),
-    };
-    format!(": one of {}", names.join(", "))
+    if key == "does" { format!(": one of {}", Does::NAMES.join(", ")) } else { String::new() }
 }
 
 #[cfg(test)]
