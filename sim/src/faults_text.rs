@@ -1,7 +1,7 @@
 //! Faults as the text of a `panorama-faults/1` file, which reads back to the same faults.
 
 use cotama_models::missions::Definition;
-use cotama_models::missions::faults::{EventKind, FORMAT, Faults, IncidentKind, Moment};
+use cotama_models::missions::faults::{EventKind, FORMAT, Faults};
 use cotama_models::robots;
 use std::fmt::Write;
 
@@ -40,29 +40,6 @@ pub fn faults_text(faults: &Faults, mission: &Definition) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "\n[[event]]\nx_mm = {}", event.x.0);
         kind(&mut text, event.kind, mission);
-    }
-    for incident in &faults.incidents {
-        text.push_str("\n[[event]]\n");
-        moment(&mut text, "", incident.when);
-        let _ = match &incident.kind {
-            IncidentKind::Failure { mode, part, until } => {
-                let _ = writeln!(text, "kind = \"failure\"\nmode = \"{}\"", mode.name());
-                if let Some(part) = part {
-                    let _ = writeln!(text, "module = \"{}\"", part.name());
-                }
-                until.iter().for_each(|it| moment(&mut text, "until_", *it));
-                Ok(())
-            }
-            IncidentKind::Repair(mode) => {
-                writeln!(text, "kind = \"repair\"\nmode = \"{}\"", mode.name())
-            }
-            IncidentKind::Operator { answers, delay } => {
-                let answers: Vec<_> =
-                    answers.iter().map(|answer| format!("\"{}\"", answer.name())).collect();
-                let answers = answers.join(", ");
-                writeln!(text, "kind = \"operator\"\nanswers = [{answers}]\ndelay_ms = {}", delay.0)
-            }
-        };
     }
     for incident in &faults.of_robot {
         text.push_str("\n[[event]]\n");
@@ -120,22 +97,6 @@ fn of_robot(text: &mut String, incident: &robots::Incident, mission: &Definition
             let answers: Vec<_> = answers.iter().map(|it| format!("\"{}\"", name(it))).collect();
             let answers = answers.join(", ");
             writeln!(text, "kind = \"operator\"\nanswers = [{answers}]\ndelay_ms = {}", delay.0)
-        }
-    };
-}
-
-/// When something begins, or ends: keys with this in front.
-fn moment(text: &mut String, before: &str, when: Moment) {
-    let _ = match when {
-        Moment::Place(x) => writeln!(text, "{before}x_mm = {}", x.0),
-        Moment::At(time) => writeln!(text, "{before}t_ms = {}", time.0),
-        Moment::During(state, after) => {
-            // States at rest have no name; no reader takes an empty one.
-            let name = Moment::state_name(state).unwrap_or("");
-            writeln!(text, "{before}during = \"{name}\"\n{before}after_ms = {}", after.0)
-        }
-        Moment::Fired(act, after) => {
-            writeln!(text, "{before}fired = \"{act}\"\n{before}after_ms = {}", after.0)
         }
     };
 }

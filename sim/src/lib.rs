@@ -21,7 +21,7 @@ pub mod robots;
 pub mod run;
 pub mod setup;
 pub mod solver;
+pub mod story;
 pub mod streams;
-pub mod supervised;
 pub mod trace;
 pub mod world;

@@ -1,34 +1,32 @@
 //! Values that stand in files by their names.
 
-use cotama_models::cotama::{Class, Configuration, FailureMode, Mode, Severity};
+use cotama_models::cotama::{Class, Mode, Severity};
 use cotama_models::team::ErrorClass;
-use cotama_models::team::scenario::Stage;
+use cotama_models::team::scenario::{Row, Stage};
 use serde::{Deserialize, Deserializer, Serializer, de::Error};
 
 /// A value with a name, and a name for one value only.
 pub(crate) trait Named: Copy + 'static {
     /// Word for such values, in messages.
     const WHAT: &'static str;
-    /// All values.
-    const ALL: &'static [Self];
-
     /// Returns the name.
     fn name(self) -> &'static str;
 
     /// Returns the value of a name.
-    fn named(name: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|it| it.name() == name)
-    }
+    fn named(name: &str) -> Option<Self>;
 }
 
 macro_rules! named {
     ($($type:ty: $what:literal;)*) => {
         $( impl Named for $type {
             const WHAT: &'static str = $what;
-            const ALL: &'static [Self] = &<$type>::ALL;
 
             fn name(self) -> &'static str {
                 <$type>::name(self)
+            }
+
+            fn named(name: &str) -> Option<Self> {
+                <$type>::ALL.iter().copied().find(|it| it.name() == name)
             }
         } )*
     };
@@ -42,21 +40,15 @@ named! {
     Stage: "stage of a robot";
 }
 
-impl Named for FailureMode {
+impl Named for Row {
     const WHAT: &'static str = "failure mode";
-    const ALL: &'static [Self] = FailureMode::ALL;
 
     fn name(self) -> &'static str {
-        FailureMode::name(self)
+        Row::name(self)
     }
-}
 
-impl Named for Configuration {
-    const WHAT: &'static str = "configuration";
-    const ALL: &'static [Self] = Configuration::ALL;
-
-    fn name(self) -> &'static str {
-        Configuration::name(self)
+    fn named(name: &str) -> Option<Self> {
+        Row::named(name)
     }
 }
 

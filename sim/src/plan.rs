@@ -1,5 +1,5 @@
 //! PANORAMA under supervisors: which configuration each drive uses, within what is left of the
-//! limits. `K` is how the supervisors name a configuration.
+//! limits. Configurations are those of the robot's file, by number.
 //!
 //! Configurations of the adapter are task implementation options (Lambert et al., J. Intell. Robot.
 //! Syst. 110, 2024, Section 6.2.2), modules are their hardware. A lost module removes options, and
@@ -10,8 +10,8 @@ use crate::run::{NoPlan, PlanCause, PlanMade};
 use crate::solver::{Left, Solver};
 use cotama_core::hardware::Equipment;
 use cotama_core::units::{MillimetresPerSecond, Millis, Milliwatts};
+use cotama_models::missions::Mission;
 use cotama_models::missions::tables::{Activity, Alternative, Rest};
-use cotama_models::missions::{Mission, Tio};
 
 /// How far a mission has come.
 #[derive(Clone, Copy, Debug)]
@@ -28,30 +28,27 @@ pub(crate) struct Progress {
 
 /// The plan of a mission under way.
 #[derive(Clone, Debug)]
-pub(crate) struct Planning<'m, K> {
+pub(crate) struct Planning<'m> {
     mission: &'m Mission,
     planner: Planner,
     activities: Vec<Activity<'m>>,
     /// The configuration of each alternative, for activities that drive.
-    configurations: Vec<Vec<Option<K>>>,
+    configurations: Vec<Vec<Option<usize>>>,
     choice: Vec<u16>,
     solver: Solver,
     pub(crate) made: Vec<PlanMade>,
 }
 
-impl<'m, K: Copy + PartialEq> Planning<'m, K> {
-    /// The plan of a mission that is not made yet; `of` is the configuration of an option.
-    pub(crate) fn new(
-        mission: &'m Mission,
-        planner: Planner,
-        of: impl Fn(&Tio) -> Option<K>,
-    ) -> Self {
+impl<'m> Planning<'m> {
+    /// The plan of a mission that is not made yet.
+    pub(crate) fn new(mission: &'m Mission, planner: Planner) -> Self {
         let scenario = mission.scenario();
         let activities = scenario.activities();
         let named = |label: &String| {
             let option =
                 label.split(' ').find_map(|id| mission.tios.iter().find(|tio| tio.id == id))?;
-            of(option)
+            let all = &mission.robot()?.robot().configurations;
+            all.iter().position(|it| it.name == option.id)
         };
         let configurations =
             scenario.activities.iter().map(|it| it.labels.iter().map(named).collect()).collect();
@@ -148,36 +145,25 @@ impl<'m, K: Copy + PartialEq> Planning<'m, K> {
         scenario.order.into_iter().find(|&axis| at.used[axis] + rest[axis] > scenario.limits[axis])
     }
 
-    /// The configuration that is planned for the first drive from an activity on.
-    pub(crate) fn next_drive(&self, activity: usize) -> Option<K> {
-        let planned = self.configurations.iter().zip(&self.choice).skip(activity);
-        { planned }.find_map(|(it, choice)| it[usize::from(*choice)])
-    }
-
     /// Returns the pace of an activity in a configuration: speed and power; that of the planned
     /// alternative when none has it.
     pub(crate) fn pace(
         &self,
         activity: usize,
-        configuration: Option<K>,
+        configuration: Option<usize>,
     ) -> (MillimetresPerSecond, Milliwatts) {
         let alternative = self.driven(activity, configuration);
         (alternative.speed, alternative.power)
     }
 
     /// Returns the power of standing in a configuration, with its hardware on.
-    pub(crate) fn rest_power(&self, activity: usize, configuration: Option<K>) -> Milliwatts {
+    pub(crate) fn rest_power(&self, activity: usize, configuration: Option<usize>) -> Milliwatts {
         let standing = self.mission.motion_power.at(MillimetresPerSecond(0));
         let hardware = self.mission.power_of(self.driven(activity, configuration).needs);
         Milliwatts(standing.0.saturating_add(hardware.0))
     }
 
-    /// The quality per 100 mm of a configuration; that of the planned alternative when none has it.
-    pub(crate) fn quality(&self, activity: usize, configuration: Option<K>) -> u32 {
-        self.driven(activity, configuration).quality
-    }
-
-    fn driven(&self, activity: usize, configuration: Option<K>) -> &Alternative {
+    fn driven(&self, activity: usize, configuration: Option<usize>) -> &Alternative {
         let with = self.configurations[activity]
             .iter()
             .position(|it| it.is_some() && *it == configuration);
@@ -212,7 +198,7 @@ mod tests {
     fn a_plan_that_fills_a_limit_to_the_last_unit_keeps_it() {
         let delivery = embedded::mission("delivery").unwrap();
         let mission = Mission::parse(delivery.name, delivery.text).unwrap();
-        let mut planning = Planning::new(&mission, Planner::of(&mission), |it| it.configuration);
+        let mut planning = Planning::new(&mission, Planner::of(&mission));
         let start = Progress { activity: 0, rest: None, now: Millis(0), x_mm: 0, used: [0; 2] };
         planning.plan(PlanCause::Start, start, mission.available()).unwrap();
         let rest = planning.rest(start);
@@ -230,7 +216,7 @@ mod tests {
         let zone = "[[zone]]\nid = \"hall\"\nx_start_mm = 60000\nx_end_mm = 70000\n[run]";
         let text = delivery.text.replacen("[run]", zone, 1);
         let mission = Mission::parse(delivery.name, &text).unwrap();
-        let planning = Planning::new(&mission, Planner::of(&mission), |it| it.configuration);
+        let planning = Planning::new(&mission, Planner::of(&mission));
         let at = |x_mm: u64| planning.activity(2, x_mm);
         // The first drive, the object, and three parts of the second drive.
         assert_eq!([40_000, 59_999, 60_000, 69_999, 70_000, 80_000].map(at), [2, 2, 3, 3, 4, 4]);

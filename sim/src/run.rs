@@ -1,7 +1,6 @@
 //! The result of a run.
 
 use cotama_core::units::Millis;
-use cotama_models::cotama::{FailureMode, Health, Module, Resource};
 use cotama_models::missions::infeasible::amount;
 use cotama_models::missions::{AXES, Mission};
 use serde::{Deserialize, Serialize};
@@ -154,10 +153,6 @@ pub enum PlanCause {
         /// The index of the hardware.
         hardware: usize,
     },
-    /// A part of a supervised robot is known to be broken.
-    Lost(Part),
-    /// The part is known to be sound again.
-    Back(Part),
     /// A failure of a robot's file, by its number, took something that the plan needs.
     Failure(usize),
     /// Parts that a loss of a robot's file, by its number, took work again.
@@ -166,35 +161,9 @@ pub enum PlanCause {
     Room,
 }
 
-/// A broken part: a thing, or else a module.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Part {
-    /// A thing that modules stand on, as the sonar arrays.
-    Resource(Resource),
-    /// A module itself.
-    Module(Module),
-}
-
-impl Part {
-    /// Returns the first broken part; `None` when nothing is broken.
-    pub fn of(broken: Health) -> Option<Self> {
-        let resource = broken.lost.first().map(Self::Resource);
-        resource.or_else(|| broken.faulty.first().map(Self::Module))
-    }
-
-    /// Returns the name: `sonar arrays`, `MCL`. A link may be lost without its card.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Resource(Resource::WifiCard) => "WiFi link",
-            Self::Resource(it) => it.name(),
-            Self::Module(it) => it.name(),
-        }
-    }
-}
-
 impl PlanCause {
-    /// In words: `start`, `energy margin below zero`, `one laser lost`, `sonar arrays
-    /// lost`, `MCL back`, `room for a better plan`.
+    /// In words: `start`, `energy margin below zero`, `one laser lost`, `no scan (LID1)`, `room for
+    /// a better plan`.
     pub fn text(self, mission: &Mission) -> String {
         match self {
             Self::Start => "start".into(),
@@ -210,8 +179,6 @@ impl PlanCause {
                 let name = mission.hardware.get(hardware).map_or("hardware", |it| it.name.as_str());
                 format!("{name} back")
             }
-            Self::Lost(part) => format!("{} lost", part.name()),
-            Self::Back(part) => format!("{} back", part.name()),
             Self::Failure(it) => failure(mission, it),
             Self::Works(it) => {
                 let losses = mission.robot().map(|it| &it.robot().losses.losses);
@@ -245,12 +212,9 @@ pub enum Reason {
     TooManyReplans,
     /// The margins were checked [`MAX_CHECKS`] times.
     TooManyChecks,
-    /// The global supervisor ended the mission.
-    GivenUp {
-        /// The failure that it goes back to; none for the operator's own decision.
-        failure: Option<FailureMode>,
-    },
-    /// The same, for a failure of a robot's file, by its number.
+    /// The operator gave up, and the global supervisor ended the mission.
+    GivenUp,
+    /// The global supervisor ended the mission for a failure of a robot's file, by its number.
     EndedBy {
         /// Number of the failure.
         failure: usize,
@@ -326,16 +290,7 @@ impl Reason {
             }
             Self::TooManyReplans => format!("stopped after {MAX_REPLANS} replans"),
             Self::TooManyChecks => format!("stopped after {MAX_CHECKS} checks"),
-            Self::GivenUp { failure: Some(mode) } => {
-                let text = mode.description();
-                format!(
-                    "the global supervisor ended the mission: {}, {} ({})",
-                    text.component,
-                    text.failure,
-                    mode.name()
-                )
-            }
-            Self::GivenUp { failure: None } => {
+            Self::GivenUp => {
                 "the operator gave up, and the global supervisor ended the mission".into()
             }
             Self::EndedBy { failure: it } => {

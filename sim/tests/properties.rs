@@ -75,7 +75,7 @@ fn faults(mission: &'static Mission) -> impl Strategy<Value = Faults> {
                     kind,
                 })
                 .collect();
-            Faults { power_errors, events, random, incidents: Vec::new(), of_robot: Vec::new() }
+            Faults { power_errors, events, random, of_robot: Vec::new() }
         },
     )
 }

@@ -137,7 +137,7 @@ fn a_setting_slows_the_robot_while_its_failure_lasts_and_five_seconds_more() {
         });
         samples.next().unwrap()
     };
-    // It slips from 20.0 s to 23.0 s, at 70 % of what it is told: 60 % of 1.5 m/s.
+    // The robot slips from 20.0 s to 23.0 s, at 70 % of what it is told: 60 % of 1.5 m/s.
     assert_eq!([speed_at(19_900), speed_at(22_000), speed_at(26_000)], [1_500, 630, 900]);
     // The last period in which it is seen is the one that ends at 23.0 s.
     assert!(speed_at(27_900) == 900 && speed_at(28_200) > 900, "{:?}", speed_at(28_200));

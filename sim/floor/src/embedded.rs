@@ -6,9 +6,9 @@ use cotama_models::missions::MissionErrors;
 /// A file that ships.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Embedded {
-    /// Its name.
+    /// Name of the floor.
     pub name: &'static str,
-    /// Its text.
+    /// Text of the file.
     pub text: &'static str,
 }
 

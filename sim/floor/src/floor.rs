@@ -29,11 +29,11 @@ pub struct Line {
 /// A door: a leaf that is an obstacle where it stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Door {
-    /// Its name.
+    /// Name in the file.
     pub name: String,
-    /// Where the leaf turns, in mm.
+    /// Hinge of the leaf, in mm.
     pub hinge: PointMm,
-    /// Where the leaf ends when it is closed, in mm.
+    /// End of the leaf when it is closed, in mm.
     pub latch: PointMm,
     /// By how much the open leaf is turned, counter-clockwise; without it the leaf slides away.
     pub swing_deg: Option<i32>,
@@ -77,9 +77,9 @@ pub const ROUND: usize = 24;
 /// A desk, a shelf, a pillar.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Furniture {
-    /// Its name.
+    /// Name in the file.
     pub name: String,
-    /// Its outline.
+    /// Outline, corner after corner.
     pub outline: Outline,
     /// Whether it is on the map of the robot; the rest is a surprise.
     pub is_charted: bool,
@@ -106,11 +106,11 @@ impl Furniture {
 /// A QR mark at a wall.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mark {
-    /// Its name, which is what it says.
+    /// Name, and text of the mark.
     pub name: String,
-    /// Its middle, in mm.
+    /// Middle, in mm.
     pub at: PointMm,
-    /// Where it looks, in degrees counter-clockwise from the x axis.
+    /// Direction that it faces, in degrees counter-clockwise from the x axis.
     pub facing_deg: i32,
     /// The side of the square, in mm.
     pub size: i32,
@@ -119,9 +119,9 @@ pub struct Mark {
 /// A place with a name, or a docking station.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
-    /// Its name.
+    /// Name in the file.
     pub name: String,
-    /// Where it is, in mm.
+    /// Position, in mm.
     pub at: PointMm,
     /// The heading that a robot has there, in degrees counter-clockwise from the x axis.
     pub heading_deg: Option<i32>,
@@ -138,9 +138,9 @@ impl Place {
 /// A part of the floor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Zone {
-    /// Its name.
+    /// Name in the file.
     pub name: String,
-    /// Its corners, in mm.
+    /// Corners, in mm.
     pub outline: Vec<PointMm>,
 }
 
@@ -154,7 +154,7 @@ impl Zone {
 /// A floor: see [`Floor::parse`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Floor {
-    /// Its name.
+    /// Name in the file.
     pub name: String,
     /// A few words about it; may be empty.
     pub title: String,

@@ -17,9 +17,9 @@ pub const MAX_CELLS: usize = 1 << 24;
 pub enum Cell {
     /// A body may be there.
     Free,
-    /// It stops rays and bodies.
+    /// Stops rays and bodies.
     Occupied,
-    /// It stops bodies; rays pass, as nothing is known to be there.
+    /// Stops bodies; rays pass, as nothing is known to be there.
     Unknown,
 }
 

@@ -240,7 +240,7 @@ pub(crate) struct Walk {
     cell: u64,
     /// How far it went until it entered its cell.
     pub(crate) distance: f64,
-    /// Where its table begins, and the width of a row of it.
+    /// Begin of its table, and the width of a row of it.
     table: u32,
     stride: u32,
     /// The length of the empty rectangle that begins here; 0 where something is.

@@ -140,7 +140,7 @@ fn a_crowd_of_long_stretches_is_refused_and_not_thinned_out() {
         Segments::new(bounds, &(0..count).map(across).collect::<Vec<_>>(), &[])
     };
     assert_eq!(crowd(50_000).unwrap_err(), SegmentsError::Crowded);
-    // Of so many as fit the last one is there.
+    // The last one of as many as fit is there.
     let many = crowd(4_000).unwrap();
     let ray = Ray { from: Point::new(499.95, 1.0), along: Vector::new(-1.0, 0.0) };
     let hit = many.hit(&ray, 9.0, Sense::Light).unwrap();

@@ -4,7 +4,6 @@
 //! rounds nothing but the half of an odd sum of speeds.
 
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
-use cotama_models::cotama::ACCELERATION;
 
 /// The robot on its path: its position and its speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,13 +12,6 @@ pub struct Drive {
     speed_mm_s: u64,
     /// In mm/s².
     acceleration: u64,
-}
-
-impl Default for Drive {
-    /// The Pioneer of the delivery.
-    fn default() -> Self {
-        Self::new(ACCELERATION)
-    }
 }
 
 impl Drive {
@@ -101,7 +93,7 @@ mod tests {
 
     #[test]
     fn it_reaches_the_speed_of_the_experiment_in_a_second_and_brakes_in_150_mm() {
-        let mut drive = Drive::default();
+        let mut drive = Drive::new(300);
         (0..10).for_each(|_| drive.go(MillimetresPerSecond(300), FAR, STEP));
         assert_eq!((drive.speed(), drive.x()), (MillimetresPerSecond(300), Millimetres(150)));
         assert_eq!(drive.braking_distance(), Millimetres(150));
@@ -114,7 +106,7 @@ mod tests {
         fn it_brakes_within_its_braking_distance(
             speeds in prop::collection::vec(0u64..=1200, 1..60),
         ) {
-            let mut drive = Drive::default();
+            let mut drive = Drive::new(300);
             speeds.iter().for_each(|&it| drive.go(MillimetresPerSecond(it), FAR, STEP));
             // One step more, as the last one may brake by less than a whole step.
             let (from, within) =

@@ -2,9 +2,8 @@
 
 use super::message::Kind;
 use crate::trace::Line;
-use cotama_models::cotama::{Configuration, FailureMode};
 use cotama_models::team::ErrorClass;
-use cotama_models::team::scenario::Stage;
+use cotama_models::team::scenario::{Row, Stage};
 use serde::{Deserialize, Serialize};
 
 /// Something that happened. Robots and tasks are numbers; the header of a trace has their names.
@@ -66,9 +65,9 @@ pub enum Record {
         t_ms: u64,
         /// The robot.
         robot: usize,
-        /// The row of the FMECA.
+        /// The row of the robot's file.
         #[serde(with = "crate::named")]
-        mode: FailureMode,
+        mode: Row,
     },
     /// The object of a task moves under the hand.
     Shifted {
@@ -90,9 +89,9 @@ pub enum Record {
         t_ms: u64,
         /// The robot.
         robot: usize,
-        /// The failure mode.
+        /// The row of the robot's file.
         #[serde(with = "crate::named")]
-        mode: FailureMode,
+        mode: Row,
     },
     /// The decisional component of a robot changed its configuration under way.
     Configured {
@@ -100,9 +99,8 @@ pub enum Record {
         t_ms: u64,
         /// The robot.
         robot: usize,
-        /// The configuration.
-        #[serde(with = "crate::named")]
-        configuration: Configuration,
+        /// The name of the configuration.
+        configuration: String,
     },
     /// An error in a task, by its class.
     Error {

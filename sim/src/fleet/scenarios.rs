@@ -3,11 +3,10 @@
 
 use crate::streams::{Stream, Streams};
 use cotama_core::team::Combine;
-use cotama_models::cotama::FailureMode;
 use cotama_models::team::scenario;
 use cotama_models::team::scenario::{
     Fault, FaultKind, FaultTime, Floor, Formation, Give, MAX_ROBOTS, Method, Needs, Place,
-    PlanSpec, Quality, RobotSpec, RoleSpec, Scenario, Take, TaskSpec,
+    PlanSpec, Quality, RobotSpec, RoleSpec, Row, Scenario, Take, TaskSpec,
 };
 use cotama_models::team::service::{DETECT, GRASP_2F, MOVE};
 use cotama_models::team::{Capability, CapabilitySet, Skill};
@@ -50,18 +49,9 @@ impl Default for FleetOptions {
 }
 
 /// Failures after which a robot does not work any more: some it finds, some make it silent.
-const STOPS: [FailureMode; 7] = [
-    FailureMode::Mot1,
-    FailureMode::Est1,
-    FailureMode::Bat3,
-    FailureMode::Pwr1,
-    FailureMode::Sw3,
-    FailureMode::Odo1,
-    FailureMode::Bmp2,
-];
+const STOPS: [&str; 7] = ["MOT1", "EST1", "BAT3", "PWR1", "SW3", "ODO1", "BMP2"];
 /// Failures with which it goes on: slower, or after a while.
-const LESSER: [FailureMode; 5] =
-    [FailureMode::Son1, FailureMode::Son2, FailureMode::Hum1, FailureMode::Mot2, FailureMode::Cam1];
+const LESSER: [&str; 5] = ["SON1", "SON2", "HUM1", "MOT2", "CAM1"];
 
 /// Corridor nodes of one of the two corridors; each has two offices.
 const NODES: usize = 12;
@@ -128,11 +118,11 @@ fn faults(robots: usize, failures: usize, horizon: u64, stream: &mut Stream) -> 
         order.swap(at, stream.below(at as u64 + 1) as usize);
     }
     let modes = [&STOPS[..], &LESSER[..]];
-    let each = order.iter().take(2 * failures).enumerate().map(|(number, &robot)| {
+    let each = order.iter().take(2 * failures).enumerate().filter_map(|(number, &robot)| {
         let modes = modes[usize::from(number >= failures)];
         let mode = modes[stream.below(modes.len() as u64) as usize];
         let when = FaultTime::At(stream.below(horizon + 1));
-        Fault { when, what: FaultKind::Robot(robot, mode) }
+        Some(Fault { when, what: FaultKind::Robot(robot, Row::named(mode)?) })
     });
     each.collect()
 }

@@ -9,7 +9,7 @@ use super::{Kind, run, run_recorded};
 use crate::fleet::bid::Offer;
 use crate::streams::Streams;
 use cotama_models::team::Reliability;
-use cotama_models::team::scenario::{Method, Scenario, TaskSpec};
+use cotama_models::team::scenario::{Fault, FaultKind, FaultTime, Method, Row, Scenario, TaskSpec};
 
 /// Table 3.1, worst case: 4n, n² + 3n and 3n² + 3n.
 #[test]
@@ -99,6 +99,21 @@ fn the_same_seed_gives_the_same_run_and_silent_rounds_change_nothing() {
     assert_eq!(run_recorded(&scenario), (first.clone(), records));
     assert_eq!(run(&scenario), first);
     assert_eq!(World::new(&scenario, false, None).in_every_round().run().0, first);
+}
+
+/// Each row of the robot's file, on the first of three robots, before, in and after its tasks.
+#[test]
+fn silent_rounds_change_nothing_whatever_fails() {
+    let options = FleetOptions { robots: 3, tasks: 6, failures: 0, ..FleetOptions::default() };
+    for (number, row) in Row::all().enumerate() {
+        let mut scenario = fleet(&FleetOptions { seed: number as u64, ..options });
+        let at = |it: usize| FaultTime::At(1_000 + 61_234 * it as u64);
+        let fault = |when| Fault { when, what: FaultKind::Robot(0, row) };
+        scenario.faults = [0, number % 4, 4].map(|it| fault(at(it))).to_vec();
+        let first = run(&scenario);
+        let every = World::new(&scenario, false, None).in_every_round().run().0;
+        assert_eq!((first.is_sound(), &first), (true, &every), "{row:?}");
+    }
 }
 
 /// How many of some runs with much loss are not sound.

@@ -3,9 +3,8 @@
 
 use super::record::{Record, Run};
 use crate::trace::{Difference, Head, TraceOf};
-use cotama_models::cotama::FailureMode;
 use cotama_models::missions::MissionErrors;
-use cotama_models::team::scenario::Scenario;
+use cotama_models::team::scenario::{Row, Scenario};
 use serde::{Deserialize, Serialize};
 
 /// The form of a trace.
@@ -107,10 +106,9 @@ impl Trace {
         self.header.tasks.get(task).map_or("?", |it| it)
     }
 
-    /// A failure mode in words, as its row in the FMECA.
-    pub fn words(mode: FailureMode) -> String {
-        let row = mode.description();
-        format!("{}, {}: {}", mode.name(), row.component, row.failure)
+    /// A failure in words, as its row in the robot's file.
+    pub fn words(row: Row) -> String {
+        row.words()
     }
 }
 

@@ -5,11 +5,11 @@ use cotama_core::units::Millis;
 use cotama_models::robots::{Mode, Robot, members};
 
 /// How long a part that was lost has to work before it is used again (assumed).
-pub(super) const SOUND_FOR: Millis = Millis(5_000);
+pub(crate) const SOUND_FOR: Millis = Millis(5_000);
 
 /// The settings that were made, and since when lost parts work again.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Adapted {
+pub(crate) struct Adapted {
     /// Each report whose setting was made, and when it was last seen.
     settings: Vec<(usize, Millis)>,
     /// Each loss that is over though it is known, and when it was last seen not to be.
@@ -17,8 +17,23 @@ pub(super) struct Adapted {
 }
 
 impl Adapted {
+    /// A setting answers a report.
+    pub(crate) fn answer(
+        &mut self,
+        robot: &Robot,
+        failures: &mut Failures,
+        report: usize,
+        now: Millis,
+    ) {
+        let Some(of) = robot.losses.reports.get(report) else { return };
+        if let Some(setting) = &of.sets {
+            failures.set(&of.failures, setting);
+        }
+        self.set(report, now);
+    }
+
     /// The setting of a report is made.
-    pub(super) fn set(&mut self, report: usize, now: Millis) {
+    fn set(&mut self, report: usize, now: Millis) {
         match self.settings.iter_mut().find(|it| it.0 == report) {
             Some(it) => it.1 = now,
             None => self.settings.push((report, now)),
@@ -26,7 +41,7 @@ impl Adapted {
     }
 
     /// Notes which failures show themselves now.
-    pub(super) fn see(&mut self, robot: &Robot, failures: &Failures, now: Millis) {
+    pub(crate) fn see(&mut self, robot: &Robot, failures: &Failures, now: Millis) {
         for (report, seen) in &mut self.settings {
             let of = robot.losses.reports.get(*report);
             if of.is_some_and(|it| failures.is_seen(&it.failures)) {
@@ -42,7 +57,7 @@ impl Adapted {
     }
 
     /// Returns how much the settings leave of the speed in a mode, in thousandths: the least.
-    pub(super) fn speed(&self, robot: &Robot, now: Millis, mode: Option<Mode>) -> u16 {
+    pub(crate) fn speed(&self, robot: &Robot, now: Millis, mode: Option<Mode>) -> u16 {
         let holds = |it: &&(usize, Millis)| now.0 < Self::end(robot, it).0;
         let all = self.settings.iter().filter(holds);
         let all = all.filter_map(|it| robot.losses.reports.get(it.0)?.sets.as_ref());
@@ -57,7 +72,7 @@ impl Adapted {
     }
 
     /// Returns the end of the next setting, with all failures as they are.
-    pub(super) fn ends_at(
+    pub(crate) fn ends_at(
         &self,
         robot: &Robot,
         failures: &Failures,
@@ -72,7 +87,7 @@ impl Adapted {
     }
 
     /// Returns the losses of those known that are over for long enough.
-    pub(super) fn back(
+    pub(crate) fn back(
         &mut self,
         robot: &Robot,
         failures: &Failures,
@@ -95,7 +110,7 @@ impl Adapted {
     }
 
     /// Returns the time at which the next loss has been over for long enough.
-    pub(super) fn returns_at(&self, robot: &Robot, failures: &Failures) -> Option<Millis> {
+    pub(crate) fn returns_at(&self, robot: &Robot, failures: &Failures) -> Option<Millis> {
         let broken = failures.broken_losses(robot);
         let over = self.sound.iter().filter(|it| broken >> it.0 & 1 == 0);
         over.map(|it| Millis(it.1.0.saturating_add(SOUND_FOR.0))).min()

@@ -1,4 +1,4 @@
-//! What a mission's script says beside failures: obstacles, positions that were wrong, and power
+//! Events of a mission's script beside failures: obstacles, positions that were wrong, and power
 //! that differs from the model.
 
 use crate::body::Drive;
@@ -7,7 +7,7 @@ use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Event, EventKind, PowerError};
 use std::collections::VecDeque;
 
-/// What holds the robot up, and what it draws more.
+/// Hindrances of the robot, and its power beyond the model.
 #[derive(Clone, Debug)]
 pub(super) struct Hindered {
     waiting: VecDeque<Event>,

@@ -16,10 +16,11 @@
 //! assert_eq!((run.outcome, run.operator_requests), (Outcome::Completed, 0));
 //! ```
 
-mod adapted;
-mod failing;
+pub(crate) mod adapted;
+pub(crate) mod failing;
 mod hindered;
-mod operator;
+mod monitor;
+pub(crate) mod operator;
 mod summary;
 mod world;
 
@@ -27,14 +28,17 @@ use crate::options::Planner;
 use crate::plan::Planning;
 use crate::record::{Recorder, Silent};
 use crate::run::{NoPlan, Outcome, PlanMade};
-use crate::supervised::{Monitor, Unmonitored, Violation, Watching};
 use cotama_core::player::{Packed, Program, words};
 use cotama_core::system::SystemError;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Event, EventKind, Faults, PowerError};
 use cotama_models::robots::supervisors::{self, OwnedSystem};
-use cotama_models::robots::{Answer, Decision, Incident, IncidentKind, Moment, RobotFile, Told};
+use cotama_models::robots::{
+    Answer, Decision, Incident, IncidentKind, Moment, RobotFile, Told, Where,
+};
+use monitor::Watching;
+pub use monitor::{Monitor, Unmonitored, Violation};
 use std::collections::{BTreeSet, VecDeque};
 use world::World;
 
@@ -60,6 +64,13 @@ pub struct Injection {
     pub failure: usize,
     /// When it ends, if not by itself.
     pub until: Option<Moment>,
+}
+
+impl Injection {
+    /// A failure, by its number, that ends by itself or never.
+    pub const fn new(when: Moment, failure: usize) -> Self {
+        Self { when, failure, until: None }
+    }
 }
 
 /// The answers of the operator to a request.
@@ -175,6 +186,10 @@ pub struct Run {
     pub braked: Millimetres,
     /// Whether it moved after the global supervisor had made it safe: never, or something is wrong.
     pub moved_when_safe: bool,
+    /// The longest time that a failure was to be seen, beyond the latency of its row, and was not.
+    pub unseen: Millis,
+    /// Whether a plan was made with what was known to be lost.
+    pub planned_with_lost: bool,
     /// The failure that ended the mission, by its position in the conduct.
     pub ended_by: Option<usize>,
     /// The transitions that fired, as `ls.ask_Follow`, each once.
@@ -192,6 +207,8 @@ pub struct Conduct {
     pub injected: Millis,
     /// Position of the robot then.
     pub x: Millimetres,
+    /// Place of the robot in its drive then.
+    pub during: Where,
     /// When its flags were raised.
     pub detected: Option<Millis>,
     /// The failures that the flags were taken for.
@@ -225,10 +242,10 @@ enum Memory {
 }
 
 /// Words of a marking: for the robots that come with the program, and for the largest.
-const SMALL: usize = 8;
+pub(crate) const SMALL: usize = 8;
 const LARGE: usize = 64;
 /// The most events that can wait in the mailboxes of the supervisors.
-const SLOTS: usize = 256;
+pub(crate) const SLOTS: usize = 256;
 
 /// Why a mission is not driven by the supervisors of a robot's file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -257,7 +274,7 @@ impl<'m> Driven<'m> {
     /// When it names no robot, or one with more supervisors than can be played.
     pub fn new(mission: &'m Mission) -> Result<Self, Undriven> {
         let robot = mission.robot().ok_or(Undriven::Plain)?.robot();
-        let system = supervisors::system(robot);
+        let system = supervisors::of_mission(robot, &mission.steps());
         let packed = system.with(|system| {
             Ok(if words(system).is_some_and(|it| it <= SMALL) {
                 Memory::Small(Box::new(Packed::of(system)?))
@@ -333,10 +350,7 @@ impl<'m> Driven<'m> {
         period: Millis,
         recorder: &mut R,
     ) -> Result<Run, NoPlan> {
-        let mut planning = Planning::new(self.mission, self.planner, |tio| {
-            let robot = self.mission.robot()?.robot();
-            robot.configurations.iter().position(|it| it.name == tio.id)
-        });
+        let mut planning = Planning::new(self.mission, self.planner);
         planning.plan(crate::run::PlanCause::Start, world::START, self.mission.available())?;
         let watching = Watching::new(&self.monitors);
         let world = World::start(self.mission, program, planning, script, period, watching);

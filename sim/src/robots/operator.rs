@@ -2,13 +2,14 @@
 
 use super::Answers;
 use super::failing::mode;
-use crate::supervised::operator::ANSWERS_AFTER;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::robots::{Answer, Mode, Robot, Told, Where};
 use std::collections::VecDeque;
 
+/// How long he takes to answer a request, to look around, and to edit (assumed).
+pub(super) const ANSWERS_AFTER: Millis = Millis(8_000);
 /// How long a request may stay without an answer before the operator counts as silent (assumed).
-pub(super) const PATIENCE: Millis = cotama_models::cotama::PATIENCE;
+pub(crate) const PATIENCE: Millis = cotama_models::cotama::PATIENCE;
 
 /// An operator with a script, and habits where it says nothing.
 #[derive(Clone, Debug)]

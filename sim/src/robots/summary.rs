@@ -44,7 +44,7 @@ impl Run {
         let ended = self.configurations.last().is_some_and(|it| it.1.is_none());
         match self.ended_by.and_then(|it| self.conduct.get(it)) {
             Some(it) => Reason::EndedBy { failure: it.failure },
-            None if ended => Reason::GivenUp { failure: None },
+            None if ended => Reason::GivenUp,
             None => Reason::Mindless,
         }
     }

@@ -7,24 +7,25 @@
 use super::adapted::Adapted;
 use super::failing::Failures;
 use super::hindered::Hindered;
+use super::monitor::Watching;
 use super::operator::Operator;
 use super::{Conduct, Injection, Run, Script};
 use crate::body::Drive;
 use crate::plan::{Planning, Progress};
 use crate::record::{Recorder, Silent};
-use crate::run::{LONGEST, Outcome, PlanCause};
-use crate::supervised::Watching;
+use crate::run::{LONGEST, Outcome};
 use cotama_core::player::Program;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::Cause;
 use cotama_models::missions::Mission;
 use cotama_models::missions::tables::Rest;
-use cotama_models::robots::{Body, Global, Level, Moment, Parts, Robot, Told, Where, diagnose};
+use cotama_models::robots::{Body, Global, Level, Moment, Parts, Robot, Told, Where};
 use records::Recording;
 use std::collections::{BTreeSet, VecDeque};
 
 mod motion;
 mod passing;
+mod planning;
 mod records;
 mod telling;
 
@@ -38,7 +39,7 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     pub(super) robot: &'m Robot,
     body: &'m Body,
     pub(super) level: Level<'m, P, W, 0, S>,
-    pub(super) planning: Planning<'m, usize>,
+    pub(super) planning: Planning<'m>,
     pub(super) now: Millis,
     pub(super) drive: Drive,
     energy_uj: u64,
@@ -54,7 +55,8 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     /// Reports and returns that the supervisors were not told yet, with the failure that they go
     /// back to.
     untold: VecDeque<(Told, Cause)>,
-    /// The objective of the mission, and since when it is under way.
+    /// The place of the global supervisor, the objective, and since when it is under way.
+    global: Global,
     pub(super) objective: usize,
     objective_since: Millis,
     /// Since when the robot is where it is in its drive, and when it came to places first.
@@ -82,7 +84,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
     pub(super) fn start(
         mission: &'m Mission,
         program: P,
-        planning: Planning<'m, usize>,
+        planning: Planning<'m>,
         script: &Script,
         period: Millis,
         watching: Watching<'m>,
@@ -103,6 +105,8 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             exposed: Millis(0),
             braked: Millimetres(0),
             moved_when_safe: false,
+            unseen: Millis(0),
+            planned_with_lost: false,
             ended_by: None,
             fired: BTreeSet::new(),
             violated: None,
@@ -111,7 +115,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             mission,
             robot,
             body,
-            level: Level::start(robot, program),
+            level: Level::start(robot, mission.steps(), program),
             planning,
             now: Millis(0),
             drive: Drive::new(body.acceleration.max(1)),
@@ -124,6 +128,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             known: Parts::NONE,
             known_rows: BTreeSet::new(),
             untold: VecDeque::new(),
+            global: Global::Waits,
             objective: 0,
             objective_since: Millis(0),
             place: Where::Rests,
@@ -175,6 +180,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
     /// The run, when it is over.
     pub(super) fn into_run(mut self) -> Run {
         self.run.plans = self.planning.made;
+        self.run.unseen = self.failures.unseen;
         self.run
     }
 
@@ -189,14 +195,17 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         if self.failures.thinks(self.robot) {
             self.observe(recording);
             self.return_what_works();
-            if !happened.is_empty()
-                || self.now.0 / 1_000 != self.now.0.saturating_sub(self.body.period.0) / 1_000
-            {
+            if !happened.is_empty() || self.looks_at_margins() {
                 self.watch_margins(recording);
             }
             self.round(recording);
         }
         self.now.0 += self.body.period.0;
+    }
+
+    /// Whether margins are looked at in this period: once a second.
+    pub(super) fn looks_at_margins(&self) -> bool {
+        self.now.0 / 1_000 != self.now.0.saturating_sub(self.body.period.0) / 1_000
     }
 
     /// How the mission ends, if it does.
@@ -211,9 +220,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         match self.level.global() {
             Global::Safe if stands => Some(self.within(Outcome::Safe)),
             _ if left_alone => Some(self.within(Outcome::Safe)),
-            Global::Waits if self.objective >= self.mission.objectives.len() => {
-                Some(self.within(Outcome::Completed))
-            }
+            Global::Done => Some(self.within(Outcome::Completed)),
             _ if self.now >= LONGEST => Some(Outcome::Failed),
             _ => None,
         }
@@ -271,6 +278,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             failure,
             injected: self.now,
             x: self.drive.x(),
+            during: self.place,
             detected: None,
             taken_for: Vec::new(),
             decided: None,
@@ -278,6 +286,11 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             exposed: Millis(0),
         });
         self.record_failure(recording, failure);
+    }
+
+    /// Whether a drive is under way.
+    pub(super) fn drives(&self) -> bool {
+        matches!(self.level.global(), Global::Does(_)) && !self.objective_stands()
     }
 
     /// The configuration that runs.
@@ -319,13 +332,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let seen = self.failures.look(self.robot, self.place);
         let Some(first) = seen.first().copied() else { return };
         self.calm = false;
-        let up = self.failures.flags(self.robot);
-        let rows = seen.iter().filter_map(|it| self.failures.all.get(*it));
-        let rows = rows.filter_map(|it| self.robot.failures.get(it.number));
-        let mut raised: Vec<usize> = rows.flat_map(|it| it.flags.iter().copied()).collect();
-        raised.sort_unstable();
-        raised.dedup();
-        let taken = diagnose(self.robot, &up, &raised);
+        let (raised, taken) = self.failures.diagnosed(self.robot, &seen);
         for it in &seen {
             if let Some(conduct) = self.run.conduct.get_mut(*it) {
                 conduct.detected = Some(self.now);
@@ -338,109 +345,11 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
                 .iter()
                 .find(|it| self.failures.all.get(**it).is_some_and(|it| it.number == failure));
             let cause = Cause(u16::try_from(its_own.unwrap_or(&first) + 1).unwrap_or(u16::MAX));
-            let reports = &self.robot.losses.reports;
-            let report = reports.iter().position(|it| it.failures.contains(&failure));
-            if let Some(report) = report
+            if let Some(report) = Failures::report(self.robot, failure)
                 && !self.untold.iter().any(|it| it.0 == Told::Report(report))
             {
                 self.untold.push_back((Told::Report(report), cause));
             }
         }
-    }
-
-    /// Plans around what is known to be lost with a failure.
-    fn lose<R: Recorder>(&mut self, failure: usize, recording: &mut Recording<'_, R>) {
-        let Some(row) = self.robot.failures.get(failure) else { return };
-        let before = self.known;
-        self.known = before.union(row.loses);
-        self.known_rows.insert(failure);
-        let Some(under) = &self.mission.under else { return };
-        if self.known == before || self.objective >= self.mission.objectives.len() {
-            return;
-        }
-        let left = under.units(self.mission, self.known);
-        // Hardware that the plan in force does not use changes it no more (Lambert et al. 2024,
-        // 7.3.2).
-        let at = self.progress();
-        if !self.planning.needs_no_more(at, left) {
-            let planned = self.planning.plan(PlanCause::Failure(failure), at, left).is_ok();
-            self.record_plans(recording);
-            self.has_plan(planned, recording);
-        }
-    }
-
-    /// Tells of lost parts that have worked again for long enough.
-    fn return_what_works(&mut self) {
-        let reports = self.robot.losses.reports.iter();
-        let known = reports.filter(|it| it.failures.iter().any(|it| self.known_rows.contains(it)));
-        let known = known.filter_map(|it| it.loss).fold(0, |set, it| set | 1 << it);
-        for loss in self.adapted.back(self.robot, &self.failures, known, self.now) {
-            if !self.untold.iter().any(|it| it.0 == Told::Back(loss)) {
-                self.untold.push_back((Told::Back(loss), Cause(0)));
-                self.calm = false;
-            }
-        }
-    }
-
-    /// Plans with what works again.
-    pub(super) fn regain<R: Recorder>(&mut self, loss: usize, recording: &mut Recording<'_, R>) {
-        let reports = self.robot.losses.reports.iter().filter(|it| it.loss == Some(loss));
-        let rows: Vec<usize> = reports.flat_map(|it| it.failures.iter().copied()).collect();
-        self.known_rows.retain(|it| !rows.contains(it));
-        self.known = self
-            .known_rows
-            .iter()
-            .filter_map(|it| self.robot.failures.get(*it))
-            .fold(Parts::NONE, |all, it| all.union(it.loses));
-        // Only a plan that was made without it can be better with it.
-        let was_without = self.planning.made.iter().any(|it| match it.cause {
-            PlanCause::Failure(it) => rows.contains(&it),
-            _ => false,
-        });
-        let Some(under) = &self.mission.under else { return };
-        if !was_without || self.objective >= self.mission.objectives.len() {
-            return;
-        }
-        let (at, left) = (self.progress(), under.units(self.mission, self.known));
-        // Without a plan the one in force goes on.
-        if self.planning.plan(PlanCause::Works(loss), at, left).is_ok() {
-            self.planless = false;
-            self.record_plans(recording);
-        }
-    }
-
-    /// Plans again when the plan in force no longer keeps a limit.
-    fn watch_margins<R: Recorder>(&mut self, recording: &mut Recording<'_, R>) {
-        let at = self.progress();
-        let drives = self.level.global() == Global::Drives;
-        let (Some(axis), true, Some(under)) =
-            (self.planning.short(at), drives, &self.mission.under)
-        else {
-            return;
-        };
-        let left = under.units(self.mission, self.known);
-        let planned = self.planning.plan(PlanCause::Margin { axis }, at, left).is_ok();
-        if planned {
-            self.record_plans(recording);
-        }
-        self.has_plan(planned, recording);
-    }
-
-    /// Tells the supervisors once that no plan is left, where the robot's file has a row for it
-    /// (Lambert et al. 2024, Section 7.2: who is asked then is not said; the row says it).
-    fn has_plan<R: Recorder>(&mut self, planned: bool, recording: &mut Recording<'_, R>) {
-        let was_told = std::mem::replace(&mut self.planless, !planned);
-        let row = self.robot.failures.iter().position(|it| it.no_plan);
-        let (false, false, Some(failure)) = (planned, was_told, row) else { return };
-        self.begin(failure, None, recording);
-        let begun = self.run.conduct.len();
-        if let Some(it) = self.run.conduct.last_mut() {
-            (it.detected, it.taken_for) = (Some(self.now), vec![failure]);
-        }
-        let reports = &self.robot.losses.reports;
-        let report = reports.iter().position(|it| it.failures.contains(&failure));
-        let cause = Cause(u16::try_from(begun).unwrap_or(u16::MAX));
-        self.untold.extend(report.map(|it| (Told::Report(it), cause)));
-        self.record_diagnosis(recording, &[begun - 1], &[], &[failure]);
     }
 }

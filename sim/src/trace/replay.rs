@@ -8,7 +8,6 @@ use crate::options::{FaultChoice, Options, Planner};
 use crate::robots::{self, Driven, Undriven};
 use crate::run::{NoPlan, Run};
 use crate::setup::{SetupError, Simulation};
-use crate::supervised::{Script, Supervised, Unsupervised};
 use cotama_core::monitor::Upward;
 use cotama_core::units::Millis;
 use cotama_models::missions::faults::Faults;
@@ -34,8 +33,6 @@ pub enum RecordError {
     Text(MissionErrors),
     /// The run cannot be set up.
     Setup(SetupError),
-    /// The mission has supervisors that are not simulated.
-    Unsupervised(Unsupervised),
     /// The supervisors of the robot's file are not simulated.
     Undriven(Undriven),
     /// There is no plan at the start.
@@ -52,7 +49,6 @@ impl fmt::Display for RecordError {
         match self {
             Self::Text(errors) => errors.fmt(f),
             Self::Setup(error) => error.fmt(f),
-            Self::Unsupervised(error) => error.fmt(f),
             Self::Undriven(error) => error.fmt(f),
             Self::Infeasible { text, .. } => write!(f, "infeasible from the start: {text}"),
         }
@@ -77,9 +73,8 @@ pub struct Replayed {
 }
 
 impl Trace {
-    /// Runs a mission and records everything: under supervisors if its file names them. Those deal
-    /// with the incidents of the faults; other faults, the seed and the search for better plans
-    /// change nothing there.
+    /// Runs a mission and records everything: under the supervisors of its robot, if it names one.
+    /// The seed and the search for better plans change nothing there.
     ///
     /// # Errors
     /// A [`RecordError`] for options that do not fit the mission, or no plan at the start.
@@ -99,8 +94,6 @@ impl Trace {
         let mut records = Vec::new();
         let run = if mission.robot().is_some() {
             driven(mission, options, period, &mut records)
-        } else if mission.supervisor().is_some() {
-            supervised(mission, options, period, &mut records)
         } else {
             let simulation = Simulation::new(mission, options).map_err(RecordError::Setup)?;
             simulation
@@ -208,29 +201,6 @@ fn driven(
     };
     let run = ready.run_recorded(&script, period, records);
     Ok(run.map_err(|reason| infeasible(mission, reason))?.summary(mission))
-}
-
-/// Runs a mission under its supervisors.
-fn supervised(
-    mission: &Mission,
-    options: &Options,
-    period: Millis,
-    records: &mut Vec<Record>,
-) -> Result<Run, RecordError> {
-    let planner = options.planner.unwrap_or_else(|| Planner::of(mission));
-    let ready = Supervised::new(mission).map_err(RecordError::Unsupervised)?.with_planner(planner);
-    if period.0 == 0 {
-        return Err(RecordError::Setup(SetupError::ZeroPeriod));
-    }
-    let script = match &options.faults {
-        FaultChoice::Script => Script::from(&mission.run.faults),
-        FaultChoice::None => Script::default(),
-        FaultChoice::Given { faults, .. } => Script::from(faults),
-    };
-    let run = ready
-        .run_recorded(&script, period, records)
-        .map_err(|reason| infeasible(mission, reason))?;
-    Ok(run.summary(mission))
 }
 
 /// Runs a recorded mission again, from nothing but its header, and compares.

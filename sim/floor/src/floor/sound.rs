@@ -11,7 +11,7 @@ const HANGS_M: f64 = 0.1;
 /// A place has at least so much room around it, in metres.
 const ROOM_M: f64 = 0.05;
 
-/// Where the name of each entry stands in the file, or else the entry.
+/// Position of the name of each entry in the file, or else the entry.
 #[derive(Default)]
 pub(super) struct Where {
     pub(super) walls: Vec<Range<usize>>,

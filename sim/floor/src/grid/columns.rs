@@ -59,7 +59,7 @@ impl Columns {
             let rows = f64::from(it & MOST);
             let above = if it & ABOVE == 0 { f64::INFINITY } else { rows + up };
             let below = if it & BELOW == 0 { f64::INFINITY } else { rows - up - 1.0 };
-            // Of the own row both sides count: the point may be outside.
+            // Both sides of the own row count: the point may be outside.
             let own = up.max(-up - 1.0);
             let height = if it & MOST == 0 { own } else { above.min(below) }.max(0.0);
             square = square.min(aside * aside + height * height);

@@ -38,7 +38,7 @@ pub(super) struct Cover {
     columns: usize,
     rows: usize,
     cell: f64,
-    /// Where the list of each cell begins; one more than cells.
+    /// Begin of the list of each cell; one more than cells.
     starts: Vec<u32>,
     /// Each stretch once for each of its cells, cell by cell.
     items: Vec<Segment>,

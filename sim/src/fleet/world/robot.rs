@@ -6,10 +6,8 @@ use crate::fleet::driver::Driver;
 use crate::fleet::message::{Award, AwardId, Ending, Message, Party, Status};
 use crate::fleet::record::Record;
 use cotama_core::team::RobotSet;
-use cotama_models::cotama::FailureMode;
 use cotama_models::team::ErrorClass;
-use cotama_models::team::scenario::Spot;
-use cotama_models::team::scenario::Stage;
+use cotama_models::team::scenario::{Row, Spot, Stage};
 use cotama_models::team::{CapabilitySet, Pledge};
 use std::rc::Rc;
 
@@ -38,7 +36,7 @@ pub(super) struct Agent {
     /// Tasks that took it longer than it had pledged: it leaves them to others.
     pub(super) left: Vec<usize>,
     /// Failures that its decisional component has found.
-    pub(super) found: Vec<FailureMode>,
+    pub(super) found: Vec<Row>,
     /// The task whose object it has on board.
     pub(super) holds: Option<usize>,
     /// When its next round is.

@@ -2,13 +2,12 @@
 
 use super::robot::{Agent, Duty, Work};
 use super::{Event, World};
-use crate::body::PERIOD;
 use crate::fleet::bid::Whereabouts;
+use crate::fleet::driver::period;
 use crate::fleet::message::Status;
 use crate::fleet::record::Record;
-use cotama_models::cotama::drive_ms;
 use cotama_models::team::ErrorClass;
-use cotama_models::team::scenario::{FaultTime, Give, RoleSpec, Stage, Take};
+use cotama_models::team::scenario::{FaultTime, Give, RoleSpec, Stage, Take, drive_ms};
 use cotama_models::team::{MOST_REPEATS, classify};
 
 impl World<'_> {
@@ -64,7 +63,7 @@ impl World<'_> {
             && matches!(stage, Stage::ToTake | Stage::ToGive)
             && driven.found.is_none()
         {
-            self.note(|t_ms| Record::Configured { t_ms, robot, configuration: it });
+            self.note(|t_ms| Record::Configured { t_ms, robot, configuration: it.to_owned() });
         }
         if stage != before {
             self.arrive(robot, before, stage);
@@ -120,7 +119,7 @@ impl World<'_> {
                 self.leave(robot);
                 self.say_final(robot, &award, Status::Completed);
             }
-            Stage::Stops => {
+            Stage::Stops | Stage::Safe => {
                 let class = self.class_of_loss(task);
                 self.give_back(robot, class, "its supervisors make it safe");
             }
@@ -261,8 +260,8 @@ impl World<'_> {
 
     /// The next round of the decisional component is when something can happen.
     pub(super) fn wake(&mut self, robot: usize) {
-        let soon = (self.now + 1).next_multiple_of(PERIOD.0);
-        let hands = self.hands(robot).map(|it| it.next_multiple_of(PERIOD.0));
+        let soon = (self.now + 1).next_multiple_of(period());
+        let hands = self.hands(robot).map(|it| it.next_multiple_of(period()));
         let agent = &mut self.robots[robot];
         if !agent.driver.thinks() {
             return;

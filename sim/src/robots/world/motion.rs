@@ -74,7 +74,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let left =
             u64::from(self.adapted.speed(self.robot, self.now, mode(self.robot, self.place)));
         let allowed = MillimetresPerSecond(allowed.0 * left / 1_000);
-        // Who drives by hand has no planned option.
+        // A drive by hand has no planned option.
         let by_hand = mode(self.robot, self.place) == Some(Mode::Operator);
         if by_hand {
             (allowed, self.body.motion_power.at(allowed))
@@ -86,8 +86,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// Returns the power of the robot: that of its pace while it moves, or that of its task where
     /// it stands for one; else that of rest.
     pub(super) fn power(&self, moved: bool) -> Milliwatts {
-        let stands = self.level.global() == Global::Waits && self.objective_stands();
-        if stands {
+        if matches!(self.level.global(), Global::Does(_)) && self.objective_stands() {
             return self.planning.pace(self.activity(), None).1;
         }
         if moved || self.drive.speed().0 > 0 {
@@ -103,8 +102,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// The end of the drive; where there is none, so far that the robot can brake.
     pub(super) fn goal(&self) -> Millimetres {
         let braked = Millimetres(self.drive.x().0 + self.drive.braking_distance().0 + 1);
-        let drives = self.level.global() == Global::Drives;
-        match self.mission.objectives.get(self.objective).filter(|it| drives && it.travels()) {
+        match self.mission.objectives.get(self.objective).filter(|_| self.drives()) {
             Some(it) => it.x_end,
             None => braked,
         }

@@ -13,7 +13,12 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     pub(super) fn pass_over(&mut self) {
         let busy = !self.calm || !self.untold.is_empty() || self.level.player().round_is_due();
         let held = self.hindered.waits() || self.hindered.owed() > Millimetres(0);
-        if busy || held || !self.failures.thinks(self.robot) || !self.is_steady() {
+        if busy
+            || held
+            || self.looks_at_margins()
+            || !self.failures.thinks(self.robot)
+            || !self.is_steady()
+        {
             return;
         }
         let until =
@@ -37,11 +42,11 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             most = most.min(self.drive.times_before(border, self.body.period).unwrap_or(0));
         }
         let waits = match self.level.global() {
-            Global::Waits => {
+            Global::Does(_) if self.objective_stands() => {
                 let activity = self.planning.activity(self.objective, self.drive.x().0);
                 until(Millis(self.objective_since.0 + self.planning.standing(activity).0))
             }
-            Global::Drives => match (self.place, mode(self.robot, self.place)) {
+            Global::Does(_) => match (self.place, mode(self.robot, self.place)) {
                 (Where::Runs { .. }, Some(Mode::Autonomous)) if moves(self.robot, self.place) => {
                     u64::MAX
                 }
@@ -51,7 +56,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
                 }
                 _ => until(self.operator.waits_until()),
             },
-            Global::Secures | Global::Safe => 0,
+            Global::Waits | Global::Done | Global::Secures | Global::Safe => 0,
         };
         most = most.min(waits);
         if most == 0 {

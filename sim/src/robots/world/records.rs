@@ -12,7 +12,7 @@ use cotama_core::units::Millis;
 use cotama_models::cotama::{Cause, Class, Mode as Autonomy};
 use cotama_models::robots::{self, Mode, Where};
 
-/// Where records go, and how much of a run is recorded.
+/// The recorder, and how much of a run it has.
 pub(in crate::robots) struct Recording<'r, R> {
     to: &'r mut R,
     plans: usize,

@@ -4,8 +4,8 @@ use super::World;
 use super::records::Recording;
 use crate::record::Recorder;
 use crate::robots::failing::{mode, moves};
+use crate::robots::monitor::Violation;
 use crate::robots::operator::View;
-use crate::supervised::Violation;
 use cotama_core::net::TransitionId;
 use cotama_core::player::{Firing, Names, Observer, Program};
 use cotama_core::system::Of;
@@ -19,6 +19,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         self.level.round(self.now, &mut seen);
         self.run.rounds += 1;
         self.note_all(recording, &mut seen);
+        self.follow();
         let (told, cause) = match self.untold.pop_front() {
             Some((told, cause)) => (Some(told), cause),
             None => self.says(),
@@ -34,6 +35,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             }
         }
         self.note_all(recording, &mut seen);
+        self.follow();
         self.arrive(recording);
         if let Some(monitor) = self.watching.look(self.now, self.level.player())
             && self.run.violated.is_none()
@@ -57,22 +59,15 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let none = (None, Cause(0));
         match self.level.global() {
             Global::Secures => (stands.then_some(Told::Stopped), Cause(0)),
-            Global::Safe => none,
-            Global::Waits => {
-                let Some(objective) = self.mission.objectives.get(self.objective) else {
-                    return none;
-                };
-                if objective.travels() {
-                    return (Some(Told::DriveWanted), Cause(0));
-                }
+            Global::Safe | Global::Done => none,
+            Global::Waits => (Some(Told::Begins), Cause(0)),
+            Global::Does(objective) if self.objective_stands() => {
                 let activity = self.planning.activity(self.objective, self.drive.x().0);
-                if self.now.0 - self.objective_since.0 < self.planning.standing(activity).0 {
-                    return none;
-                }
-                self.advance();
-                self.says()
+                let stood = self.now.0.saturating_sub(self.objective_since.0);
+                let is_over = stood >= self.planning.standing(activity).0;
+                (is_over.then_some(Told::Over(objective)), Cause(0))
             }
-            Global::Drives => (self.drive_says(), Cause(0)),
+            Global::Does(_) => (self.drive_says(), Cause(0)),
         }
     }
 
@@ -106,9 +101,19 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         self.robot.operator.is_some_and(|needs| needs & !available == 0)
     }
 
-    /// The next objective.
-    fn advance(&mut self) {
-        self.objective += 1;
+    /// Follows the global supervisor to its objective.
+    fn follow(&mut self) {
+        let global = self.level.global();
+        if global == self.global {
+            return;
+        }
+        self.global = global;
+        self.objective = match global {
+            Global::Waits => 0,
+            Global::Does(it) => it,
+            Global::Done => self.mission.objectives.len(),
+            Global::Secures | Global::Safe => self.objective,
+        };
         self.objective_since = self.now;
         self.calm = false;
     }
@@ -136,7 +141,6 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             _ => None,
         };
         let ends = net == "gs" && fired.outputs.contains(&"halt");
-        let done = net == "gs" && fired.transition == "done";
         self.record_fired(recording, id, cause);
         if self.last.0 != now {
             self.last = (now, Vec::new());
@@ -161,7 +165,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         if let (true, Some(decision), Some(at)) = (net == "cs", decision, conduct) {
             self.record_decision(recording, at, decision, id);
         }
-        // What a report takes is known when it was told, not when a module is started anew first.
+        // The loss of a report is known when it was told, not when a module is started anew first.
         for failure in known.into_iter().flatten() {
             self.lose(failure, recording);
         }
@@ -178,18 +182,11 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         if ends {
             self.run.ended_by = conduct;
         }
-        if done {
-            self.advance();
-        }
     }
 
     /// A setting answers a report.
     fn set(&mut self, report: usize) {
-        let Some(report_of) = self.robot.losses.reports.get(report) else { return };
-        if let Some(setting) = &report_of.sets {
-            self.failures.set(&report_of.failures, setting);
-        }
-        self.adapted.set(report, self.now);
+        self.adapted.answer(self.robot, &mut self.failures, report, self.now);
     }
 
     /// Notes where the supervisors have come to.

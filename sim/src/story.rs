@@ -5,10 +5,12 @@
 //! each failure, and what the operator does before the robot goes on alone. What he does until the
 //! goal belongs to the failure he was asked about.
 
-pub use super::rung::Rung;
-use crate::trace::Record;
+mod rung;
+
 use crate::trace::supervised::{Configured, Decision, Diagnosis, Failure, Fired, Told};
-use cotama_models::cotama::{Class, FailureMode, Mode};
+use crate::trace::{Plan, Record};
+use cotama_models::cotama::{Class, Mode};
+pub use rung::Rung;
 use std::collections::HashMap;
 
 /// A point of the story.
@@ -36,8 +38,7 @@ pub enum What<'t> {
     Start(&'t str),
     /// Something failed.
     Failure(Box<Chain<'t>>),
-    /// The operator, who had been asked, did this; the last answer is the event's name, as
-    /// `new_path`.
+    /// The operator, who had been asked, did this: the name of an event, as `choose_Manual`.
     Operator(&'t str),
 }
 
@@ -58,8 +59,8 @@ pub struct Chain<'t> {
     pub asked_us: Option<u64>,
     /// Words of the operator, if the robot did not go on alone after it.
     pub operator: Vec<&'t Told>,
-    /// Whether what is left was planned again.
-    pub planned_again: bool,
+    /// When what is left was planned again for it, in µs; `None` if it was not.
+    pub planned_us: Option<u64>,
     /// For how long the robot moved without a module that it required, in ms.
     pub exposed_ms: u64,
 }
@@ -69,7 +70,7 @@ pub struct Chain<'t> {
 /// ```
 /// use cotama_models::missions::{Mission, embedded};
 /// use cotama_sim::options::Options;
-/// use cotama_sim::supervised::story::points;
+/// use cotama_sim::story::points;
 /// use cotama_sim::trace::Trace;
 /// let delivery = embedded::mission("delivery").unwrap();
 /// let options = Options::default();
@@ -78,10 +79,8 @@ pub struct Chain<'t> {
 /// let points = points(&trace.records);
 /// assert_eq!(points.len(), 7);
 /// assert_eq!(points[1].title(), "RT1: MCL, deadline missed again and again");
-/// assert_eq!(
-///     points[1].decided().unwrap(),
-///     "after 0.4 s: medium, so the adapter takes fewer particles (slow1)"
-/// );
+/// let done = points[1].done().unwrap();
+/// assert!(done.ends_with("the same modules run on, with MCL.particles 200"), "{done}");
 /// ```
 pub fn points(records: &[Record]) -> Vec<Point<'_>> {
     let mut story = Story::default();
@@ -121,9 +120,6 @@ struct Story<'t> {
     configurations: Vec<&'t Configured>,
     /// The place in `points` of each failure.
     failures: HashMap<u16, usize>,
-    /// The failures of the last diagnosis.
-    diagnosed: Vec<u16>,
-    diagnosed_us: u64,
     /// Words of the operator since he was asked, and the failure asked about.
     said: Vec<&'t Told>,
     asked: Option<u16>,
@@ -135,12 +131,7 @@ impl<'t> Story<'t> {
             Record::Told(it) if STARTS.contains(&it.event.as_str()) && self.points.is_empty() => {
                 self.starts.push(it);
             }
-            Record::Told(it) if it.event.starts_with("operator.") => {
-                self.said.push(it);
-                if matches!(answer(it), "new_path" | "waypoints") {
-                    self.alone_again();
-                }
-            }
+            Record::Told(it) if it.event.starts_with("operator.") => self.said.push(it),
             Record::Failure(it) => {
                 self.failures.insert(it.failure, self.points.len());
                 self.point(it.t_us, it.x_mm, None, What::Failure(Box::new(Chain::new(it))));
@@ -151,15 +142,8 @@ impl<'t> Story<'t> {
                         chain.diagnosis = Some(it);
                     }
                 }
-                (self.diagnosed, self.diagnosed_us) = (it.failures.clone(), it.t_us);
             }
-            Record::Plan(it) if it.t_us == self.diagnosed_us => {
-                for failure in std::mem::take(&mut self.diagnosed) {
-                    if let Some(chain) = self.chain(failure) {
-                        chain.planned_again = true;
-                    }
-                }
-            }
+            Record::Plan(it) => self.planned(it),
             Record::Decision(it) => {
                 if let Some(chain) = self.chain(it.failure) {
                     chain.decision = Some(it);
@@ -171,7 +155,7 @@ impl<'t> Story<'t> {
                 }
             }
             Record::Fired(it) => {
-                if it.place == "HandOver" || it.net == "ls" && it.place == "Waits" {
+                if it.net == "ls" && it.place == "Waits" {
                     self.belongs();
                     self.asked = it.cause;
                     if let Some(chain) = it.cause.and_then(|it| self.chain(it)) {
@@ -190,8 +174,33 @@ impl<'t> Story<'t> {
                     chain.reaction.push(it);
                 }
             }
-            Record::Configuration(it) => self.configurations.push(it),
+            Record::Configuration(it) => {
+                match (&it.configuration, it.mode) {
+                    (Some(_), Mode::Autonomous) => self.alone_again(),
+                    (None, Mode::Autonomous) => self.belongs(),
+                    _ => {}
+                }
+                self.configurations.push(it);
+            }
             _ => {}
+        }
+    }
+
+    /// A plan belongs to the last failure that its cause names, as `no scan (LID1)`.
+    fn planned(&mut self, plan: &Plan) {
+        let Some(id) = plan.cause.rsplit_once('(').and_then(|it| it.1.strip_suffix(')')) else {
+            return;
+        };
+        let chains = self.points.iter_mut().rev().filter_map(|it| match &mut it.what {
+            What::Failure(chain) => Some(chain),
+            _ => None,
+        });
+        let names = |it: &&mut Box<Chain<'_>>| {
+            let taken = it.diagnosis.is_some_and(|it| it.candidates.iter().any(|it| it == id));
+            it.failure.mode == id || taken
+        };
+        if let Some(chain) = { chains }.find(names) {
+            chain.planned_us.get_or_insert(plan.t_us);
         }
     }
 
@@ -214,15 +223,15 @@ impl<'t> Story<'t> {
         }
     }
 
-    /// The robot goes on alone after what the operator did: driving is a point, and so is the path
-    /// or the way-points he gave, from when he began to edit.
+    /// The robot goes on alone after what the operator did: each thing that he chose is a point,
+    /// the last one until he was done with it.
     fn alone_again(&mut self) {
         let said = std::mem::take(&mut self.said);
-        let Some(last) = said.last() else { return };
-        if let Some(it) = said.iter().find(|it| answer(it) == "teleoperate") {
+        let Some((last, chosen)) = said.split_last() else { return };
+        let Some((edits, before)) = chosen.split_last() else { return };
+        for it in before {
             self.point(it.t_us, it.x_mm, Some(it.t_us), What::Operator(answer(it)));
         }
-        let edits = said.iter().find(|it| answer(it) == "teleprogram").unwrap_or(last);
         self.point(edits.t_us, edits.x_mm, Some(last.t_us), What::Operator(answer(last)));
     }
 }
@@ -237,7 +246,7 @@ impl<'t> Chain<'t> {
             set: None,
             asked_us: None,
             operator: Vec::new(),
-            planned_again: false,
+            planned_us: None,
             exposed_ms: 0,
         }
     }
@@ -253,19 +262,10 @@ impl Point<'_> {
             }
             What::Failure(chain) => {
                 let mode = &chain.failure.mode;
-                if let Some(what) = &chain.failure.what {
-                    return format!("{mode}: {what}");
+                match &chain.failure.what {
+                    Some(what) => format!("{mode}: {what}"),
+                    None => mode.clone(),
                 }
-                FailureMode::named(mode).map_or_else(
-                    || mode.clone(),
-                    |it| {
-                        format!(
-                            "{mode}: {}, {}",
-                            it.description().component,
-                            it.description().failure
-                        )
-                    },
-                )
             }
             What::Operator(answer) => said(answer),
         }
@@ -293,18 +293,7 @@ impl Point<'_> {
         let chain = self.chain()?;
         let decision = chain.decision?;
         let what = match decision.decision {
-            Class::Adapter => match decision.event.as_deref() {
-                Some("adapt_rt") => "the adapter takes fewer particles",
-                Some("adapt_mcl") => "the adapter takes odometry",
-                Some("adapt_bump") => "the adapter slows down",
-                Some("adapt_smz") => "the adapter takes the other avoidance",
-                Some("adapt_avoidance") => "the adapter does without avoidance",
-                Some("adapt_minor" | "adapt_minor_teleoperation") => {
-                    "the adapter changes a setting"
-                }
-                Some("adapt_sonar") => "the adapter does without sonars",
-                _ => "the adapter takes another set of modules",
-            },
+            Class::Adapter => "the adapter takes another set of modules",
             Class::Local => "the operator is asked",
             Class::Global => "the mission is ended safely",
             Class::Record => "it is recorded only",
@@ -338,7 +327,7 @@ impl Point<'_> {
         let runs = runs.unwrap_or_else(|| "the same modules run on".into());
         let set = chain.set.and_then(|it| it.sets.as_deref());
         let set = set.map_or_else(String::new, |it| format!(", with {it}"));
-        let again = if chain.planned_again { "; the rest is planned again" } else { "" };
+        let again = if chain.planned_us.is_some() { "; the rest is planned again" } else { "" };
         let later = chain.asked_us.filter(|&it| it > first.t_us);
         let asked =
             later.map_or_else(String::new, |it| format!("; it asks after {}", self.since(it)));
@@ -362,9 +351,6 @@ impl Point<'_> {
         };
         let event = chain.decision.and_then(|it| it.event.as_deref());
         let mut rungs = match event {
-            Some("adapt_rt" | "adapt_bump" | "adapt_minor" | "adapt_minor_teleoperation") => {
-                vec![Rung::Parameter]
-            }
             Some("global_event") => vec![Rung::Mission],
             Some("local_event") => vec![Rung::Activity],
             Some(_) => vec![Rung::Set],
@@ -373,7 +359,7 @@ impl Point<'_> {
         if chain.set.is_some() {
             rungs.push(Rung::Parameter);
         }
-        if chain.planned_again {
+        if chain.planned_us.is_some() {
             rungs.push(Rung::Objective);
         }
         if chain.asked_us.is_some() {
@@ -406,21 +392,11 @@ fn answer(told: &Told) -> &str {
 
 /// Returns the action of the operator, in words.
 fn said(answer: &str) -> String {
-    let known = match answer {
-        "teleoperate" => "the operator drives",
-        "teleprogram" => "the operator edits the path",
-        "waypoints" => "the operator gives way-points",
-        "new_path" => "the operator gives a path",
-        "arrived" => "the operator has reached the goal",
-        "gives_up" => "the operator gives up, or is silent",
-        other => {
-            let (chosen, done) = (other.strip_prefix("choose_"), other.strip_prefix("finish_"));
-            return match (chosen, done) {
-                (Some(it), _) => format!("the operator chooses {it}"),
-                (_, Some(it)) => format!("the operator is done with {it}"),
-                _ => other.to_owned(),
-            };
-        }
-    };
-    known.to_owned()
+    let (chosen, done) = (answer.strip_prefix("choose_"), answer.strip_prefix("finish_"));
+    match (chosen, done) {
+        (Some(it), _) => format!("the operator chooses {it}"),
+        (_, Some(it)) => format!("the operator is done with {it}"),
+        _ if answer == "gives_up" => "the operator gives up, or is silent".to_owned(),
+        _ => answer.to_owned(),
+    }
 }

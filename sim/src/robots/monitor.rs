@@ -22,14 +22,14 @@ use std::fmt;
 ///
 /// ```
 /// use cotama_models::missions::{Mission, embedded};
-/// use cotama_sim::supervised::{Script, Supervised};
+/// use cotama_sim::robots::{Driven, Script};
 /// let delivery = embedded::mission("delivery").unwrap();
 /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
-/// let supervised = Supervised::new(&mission).unwrap();
-/// let idle = supervised.monitor("AG (gs.Receive -> ls.Idle)").unwrap();
+/// let driven = Driven::new(&mission).unwrap();
+/// let idle = driven.monitor("AG (gs.Receive -> ls.Idle)").unwrap();
 /// // The drive to B follows on, so this one is wrong.
-/// let ends = supervised.monitor("AG (gs.DriveA -> AF<=60s gs.Done)").unwrap();
-/// let run = supervised.with_monitors(vec![idle, ends]).run(&Script::default()).unwrap();
+/// let ends = driven.monitor("AG (gs.DriveA -> AF<=60s gs.Done)").unwrap();
+/// let run = driven.with_monitors(vec![idle, ends]).run(&Script::default()).unwrap();
 /// let violation = run.violated.unwrap();
 /// assert_eq!((violation.monitor, violation.at.0), (1, 60_100));
 /// ```
@@ -64,11 +64,11 @@ enum Slot {
 ///
 /// ```
 /// use cotama_models::missions::{Mission, embedded};
-/// use cotama_sim::supervised::{Supervised, Unmonitored};
+/// use cotama_sim::robots::{Driven, Unmonitored};
 /// let delivery = embedded::mission("delivery").unwrap();
 /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
-/// let supervised = Supervised::new(&mission).unwrap();
-/// let refused = |text| supervised.monitor(text).unwrap_err();
+/// let driven = Driven::new(&mission).unwrap();
+/// let refused = |text| driven.monitor(text).unwrap_err();
 /// // Whether something can happen is no question to one run.
 /// assert_eq!(refused("AG EF gs.Done"), Unmonitored::NotOnLine);
 /// let help = "there is no place `gs.Don`\n  help: did you mean `gs.Done`?";
@@ -100,12 +100,12 @@ impl std::error::Error for Unmonitored {}
 ///
 /// ```
 /// use cotama_models::missions::{Mission, embedded};
-/// use cotama_sim::supervised::{Script, Supervised};
+/// use cotama_sim::robots::{Driven, Script};
 /// let delivery = embedded::mission("delivery").unwrap();
 /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
-/// let supervised = Supervised::new(&mission).unwrap();
-/// let never = supervised.monitor("AG !gs.Deliver").unwrap();
-/// let run = supervised.with_monitors(vec![never]).run(&Script::default()).unwrap();
+/// let driven = Driven::new(&mission).unwrap();
+/// let never = driven.monitor("AG !gs.Deliver").unwrap();
+/// let run = driven.with_monitors(vec![never]).run(&Script::default()).unwrap();
 /// assert!(run.violated.unwrap().fired.contains(&"gs.g4".to_owned()));
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,0 +1,161 @@
+//! A robot of a team between two rounds: what it was told to do does not change meanwhile.
+
+use super::supervisors::{KIND, Kind};
+use crate::body::Drive;
+use crate::robots::adapted::Adapted;
+use crate::robots::failing::{Demand, Failures, mode};
+use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
+use cotama_models::robots::{Mode, Where};
+
+/// Orders of the supervisors until the next round.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Orders {
+    /// Whether the robot may move.
+    pub(super) permits: bool,
+    /// Whether motion has ended for good.
+    pub(super) halted: bool,
+    pub(super) place: Where,
+    /// The end of the drive; none where it is not on one.
+    pub(super) leg: Option<Millimetres>,
+}
+
+impl Orders {
+    /// Orders for a robot without a task.
+    pub(super) const NONE: Self =
+        Self { permits: false, halted: false, place: Where::Rests, leg: None };
+
+    const fn configuration(&self) -> Option<usize> {
+        match self.place {
+            Where::Runs { configuration, .. } => Some(configuration),
+            Where::Rests | Where::Waits => None,
+        }
+    }
+}
+
+/// The motion of a robot, its failures and its energy.
+#[derive(Clone, Debug)]
+pub(super) struct Moving {
+    pub(super) drive: Drive,
+    pub(super) failures: Failures,
+    pub(super) adapted: Adapted,
+    pub(super) energy_uj: u64,
+    /// The robot has gone on until then: a multiple of the period.
+    pub(super) now: u64,
+    /// The failures that observers have seen since the last round.
+    pub(super) seen: Vec<usize>,
+    /// Whether it has gone on evenly since that was last said.
+    pub(super) even: bool,
+}
+
+impl Moving {
+    pub(super) fn new() -> Self {
+        let kind: &Kind = &KIND;
+        Self {
+            drive: Drive::new(kind.body.acceleration.max(1)),
+            failures: Failures { period: Millis(kind.period()), ..Failures::default() },
+            adapted: Adapted::default(),
+            energy_uj: 0,
+            now: 0,
+            seen: Vec::new(),
+            even: true,
+        }
+    }
+
+    pub(super) fn thinks(&self) -> bool {
+        self.failures.thinks(KIND.robot)
+    }
+
+    /// Returns what is demanded of the motors.
+    pub(super) fn demand(&self, orders: &Orders) -> Demand {
+        let (kind, mode): (&Kind, _) = (&KIND, mode(KIND.robot, orders.place));
+        let runs = orders.configuration().and_then(|it| kind.robot.configurations.get(it));
+        let left = u64::from(self.adapted.speed(kind.robot, Millis(self.now), mode));
+        let speed = runs.filter(|_| orders.permits).map_or(0, |it| it.speed.0 * left / 1_000);
+        let braked = || Millimetres(self.drive.x().0 + self.drive.braking_distance().0 + 1);
+        Demand {
+            speed: MillimetresPerSecond(speed),
+            most: kind.body.speed_max,
+            halt: orders.halted,
+            end: orders.leg.unwrap_or_else(braked),
+            led: mode == Some(Mode::Operator),
+        }
+    }
+
+    /// The robot goes on, period by period, until now; observers look.
+    pub(super) fn go(&mut self, now: u64, orders: &Orders) {
+        let kind: &Kind = &KIND;
+        let period = kind.period();
+        while self.now + period <= now {
+            let (before, start) = (self.drive, Millis(self.now));
+            self.failures.end(kind.robot, start, |_| false);
+            self.adapted.see(kind.robot, &self.failures, start);
+            let demand = self.demand(orders);
+            self.failures.go(kind.robot, start, &demand, &mut self.drive);
+            self.now += period;
+            self.draw(orders, 1);
+            let thinks = self.thinks();
+            if thinks && !self.failures.all.is_empty() {
+                self.seen.extend(self.failures.look(kind.robot, orders.place));
+            }
+            if !self.drive.is_steady_since(&before, Millis(period)) {
+                self.even = false;
+                continue;
+            }
+            let left = (now - self.now) / period;
+            let times = left.min(self.alike(orders, demand.end));
+            if times == 0 {
+                continue;
+            }
+            self.drive.glide(times, Millis(period));
+            if thinks {
+                self.failures.look_on(kind.robot, orders.place, times);
+            }
+            self.draw(orders, times);
+            self.now += times * period;
+            self.adapted.see(kind.robot, &self.failures, Millis(self.now - period));
+        }
+    }
+
+    /// In how many periods from now on it goes on as in the last one, which was even.
+    fn alike(&self, orders: &Orders, end: Millimetres) -> u64 {
+        let kind: &Kind = &KIND;
+        let period = kind.period();
+        // A change at the start of a period changes that period.
+        let until = |it: Millis| it.0.saturating_sub(self.now).div_ceil(period);
+        let even = match self.drive.speed().0 {
+            0 => u64::MAX,
+            _ => self.drive.times_before(end, Millis(period)).unwrap_or(0),
+        };
+        let even = if self.thinks() { even.min(self.unseen_for(orders)) } else { even };
+        self.changes().fold(even, |even, it| even.min(until(it)))
+    }
+
+    /// When failures and settings change by themselves next, from now on.
+    pub(super) fn changes(&self) -> impl Iterator<Item = Millis> {
+        let just_before = Millis(self.now.saturating_sub(1));
+        let failures = self.failures.changes(KIND.robot, just_before);
+        let settings = self.adapted.ends_at(KIND.robot, &self.failures, just_before);
+        failures.into_iter().chain(settings)
+    }
+
+    /// In how many periods observers see nothing new.
+    pub(super) fn unseen_for(&self, orders: &Orders) -> u64 {
+        self.failures.unseen_for(KIND.robot, orders.place)
+    }
+
+    /// Whether it would go on at its speed for a period.
+    pub(super) fn is_steady(&self, orders: &Orders) -> bool {
+        let mut next = self.drive;
+        let now = Millis(self.now);
+        self.failures.go(KIND.robot, now, &self.demand(orders), &mut next);
+        next.speed() == self.drive.speed()
+    }
+
+    /// Draws its power for some periods.
+    fn draw(&mut self, orders: &Orders, periods: u64) {
+        let motion = KIND.body.motion_power.at(self.drive.speed()).0;
+        let power = motion.saturating_add(KIND.power(orders.configuration()).0);
+        let time = KIND.period().saturating_mul(periods);
+        self.energy_uj = self.energy_uj.saturating_add(power.saturating_mul(time));
+    }
+}

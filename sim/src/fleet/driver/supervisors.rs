@@ -1,0 +1,107 @@
+//! The supervisors of the robots of a team: made of their file once, and shared by all.
+
+use crate::robots::{SLOTS, SMALL};
+use cotama_core::net::Net;
+use cotama_core::net::owned::View;
+use cotama_core::player::{Loaded, Packed};
+use cotama_core::system::{Component, System};
+use cotama_core::units::{Millis, Milliwatts};
+use cotama_models::cotama::Cause;
+use cotama_models::robots::supervisors::{self, OwnedSystem};
+use cotama_models::robots::{Body, Level, Robot, Told, members};
+use cotama_models::team::scenario;
+use std::sync::LazyLock;
+
+/// The supervisors of a robot, running.
+pub(super) type Supervisors = Level<'static, Loaded<'static, SMALL, 0, SLOTS>, SMALL, 0, SLOTS>;
+
+/// The parts that all robots of a team share.
+#[derive(Debug)]
+pub(super) struct Kind {
+    pub(super) robot: &'static Robot,
+    pub(super) body: &'static Body,
+    /// The supervisors of a robot without a task of which nothing is known to be lost.
+    at_rest: Supervisors,
+    /// The number of the observation module among the nets.
+    pub(super) observation: Option<usize>,
+    /// The power of the hardware of each configuration.
+    powers: Vec<Milliwatts>,
+}
+
+/// A module is started anew, or set, no more often before a report of it is told.
+const MOST_TRIES: usize = 20;
+
+pub(super) static KIND: LazyLock<Kind> = LazyLock::new(|| {
+    let robot = scenario::robot().expect("it is shipped");
+    let steps = scenario::steps();
+    let system = lent(supervisors::of_mission(robot, &steps));
+    let packed = Packed::of(&system).expect("a test plays it");
+    let packed: &'static Packed<SMALL, 0, SLOTS> = Box::leak(Box::new(packed));
+    let configurations = 0..robot.configurations.len();
+    Kind {
+        robot,
+        body: robot.body.as_ref().expect("the shipped robot has a body"),
+        at_rest: Level::start(robot, steps, packed.load(&system)),
+        observation: system.components.iter().position(|it| it.name == "gom"),
+        powers: configurations.map(|it| power(robot, it)).collect(),
+    }
+});
+
+/// Lends a system for good: it is made once.
+fn lent(system: OwnedSystem) -> System<'static> {
+    let it: &'static OwnedSystem = Box::leak(Box::new(system));
+    let views: &'static [View<'_>] =
+        it.nets.iter().map(|it| it.1.view()).collect::<Vec<_>>().leak();
+    let nets: &'static [Net<'_>] = views.iter().map(View::net).collect::<Vec<_>>().leak();
+    let names = it.nets.iter().map(|it| it.0.as_str());
+    let components = names.zip(nets).map(|(name, net)| Component { name, net });
+    System {
+        name: &it.name,
+        doc: &it.doc,
+        components: components.collect::<Vec<_>>().leak(),
+        links: &it.links,
+        bindings: &it.bindings,
+        clears: &it.clears,
+    }
+}
+
+/// Returns the power of the hardware that a configuration uses.
+fn power(robot: &Robot, configuration: usize) -> Milliwatts {
+    let required = robot.configurations.get(configuration).map_or(0, |it| it.required);
+    let modules = members(required).filter_map(|it| robot.modules.get(it));
+    let used = modules.fold(0, |all, it| all | it.needs.hardware);
+    let used = members(used).filter_map(|it| robot.hardware.get(it));
+    Milliwatts(used.fold(0, |all, it| all.saturating_add(it.power.0)))
+}
+
+impl Kind {
+    /// The supervisors of a robot without a task to which these reports were told before: what is
+    /// lost stays known.
+    pub(super) fn at_rest(&self, told: &[usize]) -> Supervisors {
+        let (mut level, none) = (self.at_rest.clone(), Cause(0));
+        for &report in told {
+            let loss = self.robot.losses.reports.get(report).and_then(|it| it.loss);
+            let Some(loss) = loss else { continue };
+            for _ in 0..MOST_TRIES {
+                if level.lost() >> loss & 1 == 1 {
+                    break;
+                }
+                // Told, observed, decided.
+                level.tell(Millis(0), Told::Report(report), none, &mut ());
+                level.round(Millis(0), &mut ());
+                level.round(Millis(0), &mut ());
+            }
+        }
+        level
+    }
+
+    /// Returns the power of the hardware in a configuration.
+    pub(super) fn power(&self, configuration: Option<usize>) -> Milliwatts {
+        configuration.and_then(|it| self.powers.get(it)).copied().unwrap_or(Milliwatts(0))
+    }
+
+    /// Returns the period of the control loop and of rounds, in ms.
+    pub(super) fn period(&self) -> u64 {
+        self.body.period.0.max(1)
+    }
+}

@@ -1,0 +1,112 @@
+//! Planning again: around what is lost, with what works again, and where a limit is in danger.
+
+use super::records::Recording;
+use super::{Cause, Failures, Told, World};
+use crate::record::Recorder;
+use crate::robots::failing::mode;
+use crate::run::PlanCause;
+use cotama_core::player::Program;
+use cotama_models::cotama::Severity;
+use cotama_models::robots::{Mode, Parts};
+
+impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
+    /// Plans around what is known to be lost with a failure.
+    pub(super) fn lose<R: Recorder>(&mut self, failure: usize, recording: &mut Recording<'_, R>) {
+        let Some(row) = self.robot.failures.get(failure) else { return };
+        let before = self.known;
+        self.known = before.union(row.loses);
+        self.known_rows.insert(failure);
+        let Some(under) = &self.mission.under else { return };
+        // A fatal failure ends the mission: nothing is left to plan.
+        let mode = mode(self.robot, self.place).unwrap_or(Mode::Autonomous);
+        let is_fatal = row.severity(mode) == Severity::Fatal;
+        if self.known == before || is_fatal || self.objective >= self.mission.objectives.len() {
+            return;
+        }
+        let left = under.units(self.mission, self.known);
+        // Hardware that the plan in force does not use changes it no more (Lambert et al. 2024,
+        // 7.3.2).
+        let at = self.progress();
+        if !self.planning.needs_no_more(at, left) {
+            let planned = self.planning.plan(PlanCause::Failure(failure), at, left).is_ok();
+            self.run.planned_with_lost |= planned && !self.planning.needs_no_more(at, left);
+            self.record_plans(recording);
+            self.has_plan(planned, recording);
+        }
+    }
+
+    /// Tells of lost parts that have worked again for long enough.
+    pub(super) fn return_what_works(&mut self) {
+        let reports = self.robot.losses.reports.iter();
+        let known = reports.filter(|it| it.failures.iter().any(|it| self.known_rows.contains(it)));
+        let known = known.filter_map(|it| it.loss).fold(0, |set, it| set | 1 << it);
+        for loss in self.adapted.back(self.robot, &self.failures, known, self.now) {
+            if !self.untold.iter().any(|it| it.0 == Told::Back(loss)) {
+                self.untold.push_back((Told::Back(loss), Cause(0)));
+                self.calm = false;
+            }
+        }
+    }
+
+    /// Plans with what works again.
+    pub(super) fn regain<R: Recorder>(&mut self, loss: usize, recording: &mut Recording<'_, R>) {
+        let reports = self.robot.losses.reports.iter().filter(|it| it.loss == Some(loss));
+        let rows: Vec<usize> = reports.flat_map(|it| it.failures.iter().copied()).collect();
+        self.known_rows.retain(|it| !rows.contains(it));
+        self.known = self
+            .known_rows
+            .iter()
+            .filter_map(|it| self.robot.failures.get(*it))
+            .fold(Parts::NONE, |all, it| all.union(it.loses));
+        // Only a plan that was made without it can be better with it.
+        let was_without = self.planning.made.iter().any(|it| match it.cause {
+            PlanCause::Failure(it) => rows.contains(&it),
+            _ => false,
+        });
+        let Some(under) = &self.mission.under else { return };
+        if !was_without || self.objective >= self.mission.objectives.len() {
+            return;
+        }
+        let (at, left) = (self.progress(), under.units(self.mission, self.known));
+        // Without a plan the one in force goes on.
+        if self.planning.plan(PlanCause::Works(loss), at, left).is_ok() {
+            self.run.planned_with_lost |= !self.planning.needs_no_more(at, left);
+            self.planless = false;
+            self.record_plans(recording);
+        }
+    }
+
+    /// Plans again when the plan in force no longer keeps a limit.
+    pub(super) fn watch_margins<R: Recorder>(&mut self, recording: &mut Recording<'_, R>) {
+        let at = self.progress();
+        let (Some(axis), true, Some(under)) =
+            (self.planning.short(at), self.drives(), &self.mission.under)
+        else {
+            return;
+        };
+        let left = under.units(self.mission, self.known);
+        let planned = self.planning.plan(PlanCause::Margin { axis }, at, left).is_ok();
+        self.run.planned_with_lost |= planned && !self.planning.needs_no_more(at, left);
+        if planned {
+            self.record_plans(recording);
+        }
+        self.has_plan(planned, recording);
+    }
+
+    /// Tells the supervisors once that no plan is left, where the robot's file has a row for it
+    /// (Lambert et al. 2024, Section 7.2: who is asked then is not said; the row says it).
+    fn has_plan<R: Recorder>(&mut self, planned: bool, recording: &mut Recording<'_, R>) {
+        let was_told = std::mem::replace(&mut self.planless, !planned);
+        let row = self.robot.failures.iter().position(|it| it.no_plan);
+        let (false, false, Some(failure)) = (planned, was_told, row) else { return };
+        self.begin(failure, None, recording);
+        let begun = self.run.conduct.len();
+        if let Some(it) = self.run.conduct.last_mut() {
+            (it.detected, it.taken_for) = (Some(self.now), vec![failure]);
+        }
+        let report = Failures::report(self.robot, failure);
+        let cause = Cause(u16::try_from(begun).unwrap_or(u16::MAX));
+        self.untold.extend(report.map(|it| (Told::Report(it), cause)));
+        self.record_diagnosis(recording, &[begun - 1], &[], &[failure]);
+    }
+}
