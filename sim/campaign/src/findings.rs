@@ -1,13 +1,13 @@
 //! Failing runs made small and put together by their cause.
 
-use crate::observed::{Observed, state_name};
+use crate::observed::Observed;
 use crate::plan::{Fault, Plan};
 use crate::recorded;
 use crate::requirement::Requirement;
 use crate::results::Tally;
 use crate::shrink::shrink;
 use crate::subject::Subject;
-use cotama_models::missions::faults::{EventKind, Moment};
+use cotama_models::missions::faults::EventKind;
 use cotama_sim::run::Outcome;
 use std::fmt::Write;
 
@@ -157,20 +157,13 @@ fn comment(text: &str) -> String {
 fn story(subject: &Subject<'_>, plan: &Plan, run: &Observed) -> Vec<String> {
     let mut lines = Vec::new();
     for fault in &plan.faults {
-        if let Fault::Failure { when, mode, .. } = fault {
-            let text = mode.description();
-            let met = run.met.iter().find(|it| it.0 == *mode);
-            let during = met.map_or("it never comes to that".to_owned(), |it| {
-                format!("met in {}", state_name(it.1))
-            });
-            lines.push(format!(
-                "{when}, {} fails: {}, {} ({during})",
-                fault.name(),
-                text.component,
-                text.failure
-            ));
-        } else if let Fault::Row(it) = fault {
-            lines.push(subject.story_of_row(it));
+        if let Fault::Failure(it) = fault {
+            let met = run.met.iter().find(|met| met.0 == it.failure);
+            let during = met.map_or_else(
+                || "it never comes to that".to_owned(),
+                |met| format!("met in {}", met.1),
+            );
+            lines.push(format!("{} ({during})", subject.story_of_failure(it)));
         } else if let Fault::Event(it) = fault {
             let what = subject.signature(&Plan { faults: vec![fault.clone()] });
             let size = match it.kind {
@@ -178,7 +171,7 @@ fn story(subject: &Subject<'_>, plan: &Plan, run: &Observed) -> Vec<String> {
                 EventKind::Odometry { extra } => format!(" of {} mm", extra.0),
                 _ => String::new(),
             };
-            lines.push(format!("{}, {what}{size}", Moment::Place(it.x)));
+            lines.push(format!("at {}.{} m, {what}{size}", it.x.0 / 1_000, it.x.0 / 100 % 10));
         } else if let Fault::Team(it) = fault {
             lines.push(subject.story_of(it));
         } else if let Fault::Power(it) = fault {

@@ -1,14 +1,11 @@
 //! Observations of one run.
 
-use cotama_models::cotama::{Diagnosis, FailureMode, local};
-use cotama_models::missions::faults::Moment;
-use cotama_models::robots::{self as row, Body, Robot};
-use cotama_sim::body::{FIRMWARE_WATCHDOG, Motion, effect};
+use cotama_models::robots::{self as row, Body, Motion, Robot, Where};
+use cotama_sim::body::FIRMWARE_WATCHDOG;
 use cotama_sim::fleet::{self, record::Fate};
-use cotama_sim::robots;
+use cotama_sim::robots::{self, Monitor};
 use cotama_sim::run::Outcome;
 use cotama_sim::streams::fnv1a;
-use cotama_sim::supervised::{self, Monitor};
 use serde::{Deserialize, Serialize};
 
 /// The observations of one run. A [`Line`](crate::run::Line) of the results holds the serialised
@@ -21,7 +18,7 @@ use serde::{Deserialize, Serialize};
 /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
 /// let run = Subject::new(&mission, Policy::default()).unwrap().run(&Plan::default());
 /// assert_eq!((run.outcome.name(), run.requests, run.exposed_ms), ("completed", 0, 0));
-/// assert!(run.fired.contains(&"ls.l3".to_owned()));
+/// assert!(run.fired.contains(&"gs.g3".to_owned()));
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Observed {
@@ -45,7 +42,7 @@ pub struct Observed {
     /// Whether it moved after it was safe.
     #[serde(skip)]
     pub moved_when_safe: bool,
-    /// The longest time in ms that an observer at work left a failure unseen beyond its latency.
+    /// The longest time in ms that a failure was to be seen, beyond its latency, and was not.
     #[serde(skip)]
     pub unseen_ms: u64,
     /// Whether a plan was made with modules that were known to be lost.
@@ -54,27 +51,24 @@ pub struct Observed {
     /// Whether a motor ran away, so that it could not brake as it was told.
     #[serde(skip)]
     pub ran_away: bool,
-    /// How long the robot may have moved without a required module, and how far it may have gone on
-    /// without a permit; `None` where the plan of faults says it.
+    /// How long in ms the robot may have moved without a required module, and how far in mm it may
+    /// have gone on without a permit.
     #[serde(skip)]
-    pub allowed: Option<(u64, u64)>,
-    /// Failures and the state of the local supervisor then: rows of the FMECA by state.
+    pub allowed: (u64, u64),
+    /// Failures, by number, and the place of the robot in its drive then, in a word.
     #[serde(skip)]
-    pub met: Vec<(FailureMode, local::State)>,
+    pub met: Vec<(usize, String)>,
     /// Features that the run came through: hashes of transitions, of diagnoses, of decisions, of
     /// plans; each once, sorted.
     #[serde(skip)]
     pub features: Vec<u64>,
-    /// The supervisors' transitions that fired, as `ls.l5`, each once, sorted.
+    /// The supervisors' transitions that fired, as `ls.ask_Following`, each once, sorted.
     #[serde(skip)]
     pub fired: Vec<String>,
     /// The requirement that was broken while the run went on, which ended it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub witness: Option<Witness>,
 }
-
-/// The requirement that supervisors of the caller's do what those that are shipped do.
-pub(super) const CONFORMS: &str = "conforms";
 
 /// A broken requirement, seen while a run went on.
 ///
@@ -86,7 +80,7 @@ pub(super) const CONFORMS: &str = "conforms";
 /// let subject = Subject::new(&mission, Policy::default()).unwrap();
 /// let subject = subject.watching(&["AG !ls.End".parse().unwrap()]).unwrap();
 /// let witness = subject.run(&Plan::default()).witness.unwrap();
-/// assert!(witness.seen.contains(&"ls.l3".to_owned()), "{witness:?}");
+/// assert!(witness.seen.contains(&"ls.Following_done".to_owned()), "{witness:?}");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Witness {
@@ -94,8 +88,7 @@ pub struct Witness {
     pub requirement: String,
     /// When, in ms.
     pub at_ms: u64,
-    /// The last actions of the supervisors, in one round, as `ls.l5`; or the place in which they
-    /// departed from the shipped ones.
+    /// The last actions of the supervisors, in one round, as `gs.g2`.
     pub seen: Vec<String>,
 }
 
@@ -115,7 +108,7 @@ impl Observed {
             unseen_ms: 0,
             planned_with_lost: false,
             ran_away: false,
-            allowed: None,
+            allowed: (0, 0),
             met: Vec::new(),
             features: Vec::new(),
             fired: Vec::new(),
@@ -159,6 +152,8 @@ impl Observed {
         for it in &run.conduct {
             let taken = it.taken_for.first().map_or(0, |it| *it as u64 + 1);
             let decided = it.decided.map_or(9, |it| it.1 as u64);
+            let at = place(it.during);
+            features.push(feature("failure", &[it.failure as u64, at]));
             features.push(feature("found", &[it.failure as u64, taken, decided]));
             features.push(feature("exposed", &[it.failure as u64, it.exposed.0.ilog2_or_zero()]));
         }
@@ -177,8 +172,11 @@ impl Observed {
             exposed_ms: run.exposed.0,
             braked_mm: run.braked.0,
             moved_when_safe: run.moved_when_safe,
+            unseen_ms: run.unseen.0,
+            planned_with_lost: run.planned_with_lost,
             ran_away: run.conduct.iter().any(runs_away),
-            allowed: robot.body.as_ref().map(|body| {
+            met: run.conduct.iter().map(|it| (it.failure, state(robot, it.during))).collect(),
+            allowed: robot.body.as_ref().map_or((0, 0), |body| {
                 let rows = run.conduct.iter().filter_map(row);
                 (rows.map(|it| allowed_ms(it, body)).sum(), braking_mm(body))
             }),
@@ -189,60 +187,6 @@ impl Observed {
                 at_ms: it.at.0,
                 seen: it.fired.clone(),
             }),
-            ..Self::nothing()
-        }
-    }
-
-    /// Returns the observations of a run under supervisors that were watched by these monitors.
-    pub fn of(run: &supervised::Run, monitors: &[Monitor]) -> Self {
-        let mut features = vec![feature("outcome", &[run.outcome as u64])];
-        let mut fired: Vec<(&str, &str)> =
-            run.fired.iter().map(|it| (it.net, it.transition.as_str())).collect();
-        // Which transition of a net follows which.
-        for net in ["gs", "ls", "cs", "pf", "to"] {
-            let mut before = 0;
-            for it in run.fired.iter().filter(|it| it.net == net) {
-                let this = fnv1a(it.transition.as_bytes());
-                features.push(feature(net, &[before, this]));
-                before = this;
-            }
-        }
-        fired.sort_unstable();
-        fired.dedup();
-        for it in &run.conduct {
-            let found = match it.detected {
-                None => 0,
-                Some((_, Diagnosis::None)) => 1,
-                Some((_, Diagnosis::Unexplained)) => 2,
-                Some((_, Diagnosis::Ambiguous(_))) => 3,
-                Some((_, Diagnosis::Unique(mode))) => 4 + u64::from(mode != it.mode),
-            };
-            let decided = it.decided.map_or(9, |it| it.1 as u64);
-            features.push(feature("failure", &[it.mode as u64, it.during as u64]));
-            features.push(feature("found", &[it.mode as u64, found, decided]));
-            features.push(feature("exposed", &[it.mode as u64, it.exposed.0.ilog2_or_zero()]));
-        }
-        features.sort_unstable();
-        features.dedup();
-        let runs_away = |it: &supervised::Conduct| effect(it.mode).motion == Motion::Runaway;
-        Self {
-            outcome: run.outcome,
-            time_ms: run.used[0],
-            energy_mj: run.used[1],
-            x_mm: run.x.0,
-            requests: run.operator_requests,
-            replans: run.plans.len().saturating_sub(1) as u64,
-            exposed_ms: run.exposed.0,
-            braked_mm: run.braked.0,
-            moved_when_safe: run.moved_when_safe,
-            unseen_ms: run.unseen.0,
-            planned_with_lost: run.planned_with_lost,
-            ran_away: run.conduct.iter().any(runs_away),
-            allowed: None,
-            met: run.conduct.iter().map(|it| (it.mode, it.during)).collect(),
-            features,
-            fired: fired.into_iter().map(|(net, it)| format!("{net}.{it}")).collect(),
-            witness: Witness::of(run, monitors),
         }
     }
 }
@@ -268,23 +212,24 @@ fn braking_mm(body: &Body) -> u64 {
     v * v / (2 * body.acceleration.max(1)) + v * body.period.0 / 1_000 + 1
 }
 
-impl Witness {
-    fn of(run: &supervised::Run, monitors: &[Monitor]) -> Option<Self> {
-        if let Some(it) = &run.violated {
-            let requirement = monitors.get(it.monitor).map_or("", Monitor::text).to_owned();
-            return Some(Self { requirement, at_ms: it.at.0, seen: it.fired.clone() });
+/// The name of a place of the robot in its drive.
+fn state(robot: &Robot, at: Where) -> String {
+    match at {
+        Where::Rests => "Idle".to_owned(),
+        Where::Waits => "Waits".to_owned(),
+        Where::Runs { sub_objective, .. } => {
+            let of = robot.sub_objectives.get(sub_objective);
+            of.map_or_else(String::new, |it| it.name.clone())
         }
-        let (at, place) = run.departed.as_ref()?;
-        Some(Self { requirement: CONFORMS.to_owned(), at_ms: at.0, seen: vec![place.clone()] })
     }
 }
 
-/// The name of a state in results: that of the net.
-pub fn state_name(state: local::State) -> &'static str {
-    match state {
-        local::State::Idle => "Idle",
-        local::State::End => "End",
-        other => Moment::state_name(other).unwrap_or("Idle"),
+/// A number for a place of the robot in its drive.
+const fn place(at: Where) -> u64 {
+    match at {
+        Where::Rests => 0,
+        Where::Waits => 1,
+        Where::Runs { sub_objective, .. } => 2 + sub_objective as u64,
     }
 }
 

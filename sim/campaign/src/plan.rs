@@ -1,16 +1,12 @@
 //! The faults of one run of a campaign: a list, as data.
 
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::{FailureMode, Module};
 use cotama_models::missions::Definition;
-use cotama_models::missions::faults::{
-    Event, EventKind, Faults, Incident, IncidentKind, PowerError,
-};
-use cotama_models::robots as row;
+use cotama_models::missions::faults::{Event, EventKind, Faults, PowerError};
+use cotama_models::robots::{self as row, Moment};
 use cotama_models::team::scenario::{self, FaultKind};
 use cotama_sim::faults_text::faults_text;
 use cotama_sim::robots;
-use cotama_sim::supervised::{Answers, Injection, Script, When};
 
 /// The faults of one run.
 ///
@@ -19,13 +15,13 @@ use cotama_sim::supervised::{Answers, Injection, Script, When};
 ///
 /// ```
 /// use cotama_core::units::Millimetres;
-/// use cotama_models::cotama::FailureMode;
 /// use cotama_models::missions::{Mission, embedded, faults::Faults};
+/// use cotama_models::robots::Moment;
 /// use cotama_campaign::plan::{Fault, Plan};
-/// use cotama_sim::supervised::When;
 /// let delivery = embedded::mission("delivery").unwrap();
 /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
-/// let lost = Fault::failure(When::Place(Millimetres(5_000)), FailureMode::Son2);
+/// let silent = mission.robot().unwrap().robot().failure("SON2").unwrap();
+/// let lost = Fault::failure(Moment::Place(Millimetres(5_000)), silent);
 /// let plan = Plan { faults: vec![lost] };
 /// let text = plan.to_toml(&mission);
 /// assert!(text.contains("x_mm = 5000\nkind = \"failure\"\nmode = \"SON2\""));
@@ -39,68 +35,31 @@ pub struct Plan {
 }
 
 /// One thing that goes wrong.
-///
-/// ```
-/// use cotama_core::units::Millis;
-/// use cotama_models::cotama::{FailureMode, local};
-/// use cotama_campaign::plan::Fault;
-/// use cotama_sim::supervised::When;
-/// // Five seconds after the operator is asked for the first time, his link is gone.
-/// let when = When::During(local::State::HandOver, Millis(5_000));
-/// assert_eq!(Fault::failure(when, FailureMode::Com1).name(), "COM1");
-/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// A row of the FMECA, in a supervised mission.
-    Failure {
-        /// When it begins.
-        when: When,
-        /// The row.
-        mode: FailureMode,
-        /// The module, where the row is about one, whichever it is.
-        part: Option<Module>,
-        /// When it ends, if not by itself.
-        until: Option<When>,
-    },
+    /// A failure of the robot's file, in a mission under its supervisors.
+    Failure(robots::Injection),
     /// The answers of the operator to the first request from a place on.
-    Operator(Answers),
+    Operator(robots::Answers),
     /// Something that happens at a place of a mission that is run by its plans alone.
     Event(Event),
     /// Real power differs from the modelled one in a zone of such a mission.
     Power(PowerError),
-    /// A failure of a robot's file, in a mission under its supervisors.
-    Row(robots::Injection),
-    /// The answers of the operator of such a robot to the first request from a place on.
-    Replies(robots::Answers),
     /// Something that goes wrong in a team.
     Team(scenario::Fault),
 }
 
 impl Fault {
-    /// A failure that stays, of avoidance if the row is about one module, whichever it is.
-    pub const fn failure(when: When, mode: FailureMode) -> Self {
-        Self::Failure { when, mode, part: None, until: None }
+    /// A failure of the robot's file, by its number, that ends by itself or never.
+    pub const fn failure(when: Moment, failure: usize) -> Self {
+        Self::Failure(robots::Injection::new(when, failure))
     }
 
     /// Returns the name of the fault without its moment: two plans with the same cause share it.
-    ///
-    /// ```
-    /// use cotama_core::units::Millis;
-    /// use cotama_models::cotama::{FailureMode, Module};
-    /// use cotama_campaign::plan::Fault;
-    /// use cotama_sim::supervised::When;
-    /// let (when, until) = (When::At(Millis(7)), None);
-    /// let crash = Fault::Failure { when, mode: FailureMode::Sw1, part: Some(Module::Mcl), until };
-    /// assert_eq!(crash.name(), "SW1 of MCL");
-    /// ```
     pub fn name(&self) -> String {
         match self {
-            Self::Failure { mode, part: Some(part), .. } if mode.rule().one_module => {
-                format!("{} of {}", mode.name(), part.name())
-            }
-            Self::Failure { mode, .. } => mode.name().to_owned(),
-            Self::Operator(_) | Self::Replies(_) => "operator".to_owned(),
-            Self::Row(it) => format!("failure {}", it.failure),
+            Self::Operator(_) => "operator".to_owned(),
+            Self::Failure(it) => format!("failure {}", it.failure),
             Self::Event(it) => match it.kind {
                 EventKind::Obstacle { .. } => "obstacle".to_owned(),
                 EventKind::Odometry { .. } => "odometry".to_owned(),
@@ -122,21 +81,12 @@ impl Fault {
 impl From<&Faults> for Plan {
     /// Returns the faults of a file, less its random events, which are drawn by each run.
     fn from(faults: &Faults) -> Self {
-        let script = Script::from(faults);
-        let failure = |it: &Injection| Fault::Failure {
-            when: it.when,
-            mode: it.mode,
-            part: it.mode.rule().one_module.then_some(it.part),
-            until: it.until,
-        };
-        let failures = script.injections.iter().map(failure);
+        let script = robots::Script::from(&faults.of_robot[..]);
+        let failures = script.injections.into_iter().map(Fault::Failure);
         let answers = script.answers.into_iter().map(Fault::Operator);
         let events = faults.events.iter().copied().map(Fault::Event);
         let powers = faults.power_errors.iter().copied().map(Fault::Power);
-        let own = robots::Script::from(&faults.of_robot[..]);
-        let rows = own.injections.into_iter().map(Fault::Row);
-        let replies = own.answers.into_iter().map(Fault::Replies);
-        let all = failures.chain(answers).chain(events).chain(powers).chain(rows).chain(replies);
+        let all = failures.chain(answers).chain(events).chain(powers);
         Self { faults: all.collect() }
     }
 }
@@ -146,14 +96,6 @@ impl From<&Plan> for Faults {
         let mut faults = Self::default();
         for fault in &plan.faults {
             match fault {
-                Fault::Failure { when, mode, part, until } => faults.incidents.push(Incident {
-                    when: *when,
-                    kind: IncidentKind::Failure { mode: *mode, part: *part, until: *until },
-                }),
-                Fault::Operator(it) => faults.incidents.push(Incident {
-                    when: When::Place(it.x),
-                    kind: IncidentKind::Operator { answers: it.answers.clone(), delay: it.delay },
-                }),
                 Fault::Event(it) => faults.events.push(*it),
                 // A file names each zone once; errors of one zone add up, as those of zones that
                 // overlap do.
@@ -166,14 +108,14 @@ impl From<&Plan> for Faults {
                         None => faults.power_errors.push(*it),
                     }
                 }
-                Fault::Row(robots::Injection { when, failure, until }) => {
+                Fault::Failure(robots::Injection { when, failure, until }) => {
                     let kind = row::IncidentKind::Failure { failure: *failure, until: *until };
                     faults.of_robot.push(row::Incident { when: *when, kind });
                 }
-                Fault::Replies(it) => {
+                Fault::Operator(it) => {
                     let (answers, delay) = (it.answers.iter().copied().collect(), it.delay);
                     let kind = row::IncidentKind::Operator { answers, delay };
-                    faults.of_robot.push(row::Incident { when: row::Moment::Place(it.x), kind });
+                    faults.of_robot.push(row::Incident { when: Moment::Place(it.x), kind });
                 }
                 // No mission has one.
                 Fault::Team(_) => {}
@@ -181,29 +123,19 @@ impl From<&Plan> for Faults {
         }
         // As a file is read, so that a plan is run as its file is.
         faults.events.sort_by_key(|it| it.x);
-        faults.incidents.sort_by_key(|it| it.when.key());
         faults.of_robot.sort_by_key(|it| it.when);
         faults
-    }
-}
-
-impl From<&Plan> for Script {
-    fn from(plan: &Plan) -> Self {
-        Self::from(&Faults::from(plan))
     }
 }
 
 impl Plan {
     /// Whether all its places lie on a path of this length.
     pub fn is_within(&self, path: Millimetres) -> bool {
-        let on_it = |when: When| !matches!(when, When::Place(x) if x > path);
-        let on_path = |when| !matches!(when, row::Moment::Place(x) if x > path);
+        let on_path = |when| !matches!(when, Moment::Place(x) if x > path);
         self.faults.iter().all(|it| match it {
-            Fault::Failure { when, until, .. } => on_it(*when) && until.is_none_or(on_it),
             Fault::Operator(it) => it.x <= path,
             Fault::Event(it) => it.x <= path,
-            Fault::Row(it) => on_path(it.when) && it.until.is_none_or(on_path),
-            Fault::Replies(it) => it.x <= path,
+            Fault::Failure(it) => on_path(it.when) && it.until.is_none_or(on_path),
             Fault::Power(_) | Fault::Team(_) => true,
         })
     }
@@ -259,7 +191,7 @@ impl Plan {
                 let zone = mission.zones.get(it.zone).map_or("a zone", |it| it.id.as_str());
                 format!("power in {zone}")
             }
-            Fault::Row(it) => {
+            Fault::Failure(it) => {
                 let robot = mission.under.as_ref().map(|it| it.file.robot());
                 let row = robot.and_then(|robot| robot.failures.get(it.failure));
                 row.map_or_else(|| fault.name(), |it| it.id.clone())
@@ -274,11 +206,11 @@ impl Plan {
 }
 
 /// A place of the path in whole mm, as a moment.
-pub(super) const fn place(x_mm: u64) -> When {
-    When::Place(Millimetres(x_mm))
+pub(super) const fn place(x_mm: u64) -> Moment {
+    Moment::Place(Millimetres(x_mm))
 }
 
 /// A time after the start in ms, as a moment.
-pub(super) const fn at(t_ms: u64) -> When {
-    When::At(Millis(t_ms))
+pub(super) const fn at(t_ms: u64) -> Moment {
+    Moment::At(Millis(t_ms))
 }

@@ -51,21 +51,20 @@ impl Strategy for Plans {
 /// A plan, and the simpler ones that are left to be tried.
 ///
 /// ```
-/// use cotama_models::cotama::FailureMode::{Bat2, Son2};
+/// use cotama_models::robots::Moment;
 /// use cotama_campaign::plan::{Fault, Plan};
 /// use cotama_campaign::plans::PlanTree;
-/// use cotama_sim::supervised::When;
 /// use cotama_core::units::Millis;
 /// use proptest::strategy::ValueTree;
-/// let fault = |t, mode| Fault::failure(When::At(Millis(t)), mode);
-/// let mut tree = PlanTree::of(Plan { faults: vec![fault(3_210, Son2), fault(17, Bat2)] });
-/// // What fails is any plan with a flat battery.
-/// let fails = |it: &Plan| it.faults.iter().any(|it| it.name() == "BAT2");
+/// let fault = |t, mode| Fault::failure(Moment::At(Millis(t)), mode);
+/// let mut tree = PlanTree::of(Plan { faults: vec![fault(3_210, 4), fault(17, 9)] });
+/// // What fails is any plan with the ninth failure of the file.
+/// let fails = |it: &Plan| it.faults.iter().any(|it| it.name() == "failure 9");
 /// let mut goes_on = tree.simplify();
 /// while goes_on {
 ///     goes_on = if fails(&tree.current()) { tree.simplify() } else { tree.complicate() };
 /// }
-/// assert_eq!(tree.current(), Plan { faults: vec![fault(0, Bat2)] });
+/// assert_eq!(tree.current(), Plan { faults: vec![fault(0, 9)] });
 /// ```
 #[derive(Clone, Debug)]
 pub struct PlanTree {

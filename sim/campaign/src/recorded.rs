@@ -229,7 +229,7 @@ pub fn again_by(
     let asked = std::slice::from_ref(&requirement);
     let subject = subject.clone().watching(asked).map_err(NotCompared::Unready)?;
     let run = subject.run(plan);
-    let breaks = !requirement.holds(plan, &run);
+    let breaks = !requirement.holds(&run);
     let ends = [expected.end.clone(), ending(&run, &requirement)];
     Ok(Again { requirement, breaks, ends, of_team: subject.is_team() })
 }

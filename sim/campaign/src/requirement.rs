@@ -1,20 +1,14 @@
 //! Requirements of every run, whatever fails.
 
-use crate::observed::{CONFORMS, Observed};
-use crate::plan::{Fault, Plan};
-use cotama_models::cotama::FailureMode;
+use crate::observed::Observed;
 use cotama_sim::run::Outcome;
 use std::fmt;
-
-/// How far the robot may go on after its permit to move is gone, in mm: its braking distance from
-/// the speed of the experiment.
-pub const BRAKING_MM: u64 = 150;
 
 /// A requirement of a run.
 ///
 /// ```
 /// use cotama_campaign::requirement::Requirement;
-/// let texts = ["completed", "in-time", "energy<=8640000", "never gs.abort", "AG !gs.Safe"];
+/// let texts = ["completed", "in-time", "energy<=8640000", "never gs.abort_DriveA", "AG !gs.Safe"];
 /// for text in texts {
 ///     assert_eq!(text.parse::<Requirement>().unwrap().to_string(), text);
 /// }
@@ -29,25 +23,22 @@ pub enum Requirement {
     NotFailed,
     /// The robot never moves after it is safe.
     StandsWhenSafe,
-    /// The robot brakes within [`BRAKING_MM`], or what its file says, when the permit to move is
-    /// gone, unless a motor ran away.
+    /// The robot brakes within the braking distance of its file when the permit to move is gone,
+    /// unless a motor ran away.
     Brakes,
     /// The robot never moves without a module that it requires for longer than the failures of the
-    /// run take to be detected, decided and answered, one after the other: [`allowed_ms`].
+    /// run take to be detected, decided and answered, one after the other.
     InTime,
     /// A number of the run is at most so much.
     AtMost(Metric, u64),
-    /// A transition of the supervisors, as `gs.abort`, never fires.
+    /// A transition of the supervisors, as `gs.abort_DriveA`, never fires.
     Never(String),
-    /// Every failure is seen within the latency of its row of the FMECA, while an observer of it is
-    /// at work.
+    /// Every failure is seen within the latency of its row of the FMECA while flags show it.
     SeenInTime,
     /// No plan is made with modules that are known to be lost.
     PlansWithWhatWorks,
-    /// Supervisors of the caller's do what those that are shipped do when they are told the same.
-    Conforms,
     /// A property in the language of `cotama check` that a single run can break:
-    /// [`Monitor`](cotama_sim::supervised::Monitor). It ends the run that breaks it.
+    /// [`Monitor`](cotama_sim::robots::Monitor). It ends the run that breaks it.
     Always(String),
 }
 
@@ -94,37 +85,15 @@ impl Metric {
     }
 }
 
-/// The time in ms that the failures of a plan allow the robot to move without a module: each alone
-/// is detected, decided and answered within two rounds of 100 ms, and stands a second later; they
-/// may follow each other.
-///
-/// ```
-/// use cotama_core::units::Millis;
-/// use cotama_models::cotama::FailureMode::{Rt1, Son2};
-/// use cotama_campaign::{plan::{Fault, Plan}, requirement::allowed_ms};
-/// use cotama_sim::supervised::When;
-/// let faults = [Rt1, Son2].map(|mode| Fault::failure(When::At(Millis(0)), mode)).to_vec();
-/// assert_eq!(allowed_ms(&Plan { faults: faults[..1].to_vec() }), 3_200);
-/// assert!(allowed_ms(&Plan { faults }) > 3_200);
-/// ```
-pub fn allowed_ms(plan: &Plan) -> u64 {
-    let one = |mode: FailureMode| u64::from(mode.rule().latency_ms).max(2_000) + 1_200;
-    let failures = plan.faults.iter().filter_map(|it| match it {
-        Fault::Failure { mode, .. } => Some(one(*mode)),
-        _ => None,
-    });
-    failures.sum()
-}
-
 impl Requirement {
     /// Whether it holds of a run.
-    pub fn holds(&self, plan: &Plan, run: &Observed) -> bool {
-        self.distance(plan, run) > 0
+    pub fn holds(&self, run: &Observed) -> bool {
+        self.distance(run) > 0
     }
 
     /// How far a run is from breaking it: a level for searches, in its own unit; 0 or less when it
     /// is broken.
-    pub fn distance(&self, plan: &Plan, run: &Observed) -> i64 {
+    pub fn distance(&self, run: &Observed) -> i64 {
         let left = |limit: u64, value: u64| {
             let left = i128::from(limit) - i128::from(value) + 1;
             i64::try_from(left).unwrap_or(i64::MIN)
@@ -136,15 +105,12 @@ impl Requirement {
             Self::NotFailed => i64::from(run.outcome != Outcome::Failed),
             Self::StandsWhenSafe => i64::from(!run.moved_when_safe),
             Self::Brakes if run.ran_away => 1,
-            Self::Brakes => left(run.allowed.map_or(BRAKING_MM, |it| it.1), run.braked_mm),
-            Self::InTime => {
-                left(run.allowed.map_or_else(|| allowed_ms(plan), |it| it.0), run.exposed_ms)
-            }
+            Self::Brakes => left(run.allowed.1, run.braked_mm),
+            Self::InTime => left(run.allowed.0, run.exposed_ms),
             Self::AtMost(metric, limit) => left(*limit, metric.of(run)),
             Self::Never(transition) => i64::from(run.fired.binary_search(transition).is_err()),
             Self::SeenInTime => left(0, run.unseen_ms),
             Self::PlansWithWhatWorks => i64::from(!run.planned_with_lost),
-            Self::Conforms => Self::unbroken(run, CONFORMS),
             Self::Always(text) => Self::unbroken(run, text),
         }
     }
@@ -171,7 +137,6 @@ impl Requirement {
                 | Self::Never(_)
                 | Self::SeenInTime
                 | Self::PlansWithWhatWorks
-                | Self::Conforms
                 | Self::Always(_)
                 | Self::AtMost(Metric::Requests | Metric::Exposed, _)
         )
@@ -183,10 +148,11 @@ impl Requirement {
             Self::Completed => "the mission is completed within its limits".into(),
             Self::NotFailed => "the mission is completed, or the robot stands safely".into(),
             Self::StandsWhenSafe => "the robot never moves after it is safe".into(),
-            Self::Brakes => format!(
-                "the robot stands within {BRAKING_MM} mm after its permit to move is gone, unless \
-                 a motor runs away"
-            ),
+            Self::Brakes => {
+                "the robot stands within its braking distance after its permit to move is gone, \
+                 unless a motor runs away"
+                    .into()
+            }
             Self::InTime => "the robot never moves without a module that it requires for longer \
                              than its failures take to be answered"
                 .into(),
@@ -201,13 +167,12 @@ impl Requirement {
                 format!("{what} {verb} at most {limit}{unit}")
             }
             Self::Never(transition) => format!("`{transition}` never fires"),
-            Self::SeenInTime => "every failure is seen within the latency of its row, while an \
-                                 observer of it is at work"
-                .into(),
+            Self::SeenInTime => {
+                "every failure is seen within the latency of its row while flags show it".into()
+            }
             Self::PlansWithWhatWorks => {
                 "no plan is made with modules that are known to be lost".into()
             }
-            Self::Conforms => "the supervisors do what those that are shipped do".into(),
             Self::Always(_) => "it holds of the supervisors at the end of every round".into(),
         }
     }
@@ -242,7 +207,7 @@ fn unspaced(text: &str) -> String {
     out
 }
 
-const PLAIN: [(&str, Requirement); 8] = [
+const PLAIN: [(&str, Requirement); 7] = [
     ("completed", Requirement::Completed),
     ("not-failed", Requirement::NotFailed),
     ("stands-when-safe", Requirement::StandsWhenSafe),
@@ -250,7 +215,6 @@ const PLAIN: [(&str, Requirement); 8] = [
     ("in-time", Requirement::InTime),
     ("seen-in-time", Requirement::SeenInTime),
     ("plans-with-what-works", Requirement::PlansWithWhatWorks),
-    (CONFORMS, Requirement::Conforms),
 ];
 
 impl fmt::Display for Requirement {

@@ -94,7 +94,10 @@ mod tests {
             (&["requests<=0", "in-time", "requests<=00"], &["requests<=0", "in-time"]),
             (&["time<=007", "time<=7", "time<=8"], &["time<=7", "time<=8"]),
             (&["exposed<=1", "exposed<=1", "exposed<=1"], &["exposed<=1"]),
-            (&["never gs.abort", "brakes", "never gs.abort"], &["never gs.abort", "brakes"]),
+            (
+                &["never gs.abort_DriveA", "brakes", "never gs.abort_DriveA"],
+                &["never gs.abort_DriveA", "brakes"],
+            ),
             (&["AG !gs.Safe", "completed", " AG  !gs.Safe "], &["AG !gs.Safe", "completed"]),
             (&["AG (a & b)", "AG(a&b)", "AG ( a &\tb )"], &["AG (a & b)"]),
             (

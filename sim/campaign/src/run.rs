@@ -1,6 +1,6 @@
 //! The runs of a campaign: what is asked for, what one run leaves, and the loop.
 
-use crate::observed::{Observed, state_name};
+use crate::observed::Observed;
 use crate::plan::Plan;
 use crate::requirement::Requirement;
 use crate::requirements::Requirements;
@@ -8,6 +8,7 @@ use crate::sampling::Sampling;
 use crate::space::{Rates, Space};
 use crate::strategy::{BLOCK, Strategy, StrategyName};
 use crate::subject::{Subject, Unready};
+use cotama_models::robots::RobotFile;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -213,25 +214,25 @@ impl<'m> Campaign<'m> {
         let lines = (first..first + count).map(|run| {
             let plan = draws.next();
             let observed = self.subject.run(&plan);
-            draws.learn(&observed, self.distance(&plan, &observed));
+            draws.learn(&observed, self.distance(&observed));
             self.line(run, &plan, observed)
         });
         lines.collect()
     }
 
     /// The least distance of a run from breaking a requirement.
-    pub fn distance(&self, plan: &Plan, observed: &Observed) -> i64 {
-        let distances = self.settings.requirements.iter().map(|it| it.distance(plan, observed));
+    pub fn distance(&self, observed: &Observed) -> i64 {
+        let distances = self.settings.requirements.iter().map(|it| it.distance(observed));
         distances.min().unwrap_or(i64::MAX)
     }
 
     fn line(&self, run: u64, plan: &Plan, observed: Observed) -> Line {
-        let broken = self.settings.requirements.iter().filter(|it| !it.holds(plan, &observed));
+        let broken = self.settings.requirements.iter().filter(|it| !it.holds(&observed));
         let violated: Requirements = broken.cloned().collect();
-        let of_robot = plan.faults.iter().any(|it| matches!(it, crate::plan::Fault::Row(_)));
-        let faults = if self.subject.is_supervised() && !of_robot {
-            let met = observed.met.iter();
-            met.map(|(mode, state)| format!("{}@{}", mode.name(), state_name(*state))).collect()
+        let robot = self.subject.mission().and_then(|it| it.robot()).map(RobotFile::robot);
+        let faults = if let Some(robot) = robot {
+            let id = |it: usize| robot.failures.get(it).map_or("", |it| it.id.as_str());
+            observed.met.iter().map(|(failure, at)| format!("{}@{at}", id(*failure))).collect()
         } else {
             let one = |it: &crate::plan::Fault| {
                 self.subject.signature(&Plan { faults: vec![it.clone()] })

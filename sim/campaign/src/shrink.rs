@@ -1,8 +1,8 @@
 //! The smallest plan that still breaks a requirement.
 //!
 //! First whole faults are left out, in halves and smaller parts (delta debugging: Zeller,
-//! Hildebrandt, IEEE TSE 28(2), 2002), then each fault is made plainer: it does not end, its module
-//! is the usual one, its moment and its numbers are round. What is left cannot be made plainer by
+//! Hildebrandt, IEEE TSE 28(2), 2002), then each fault is made plainer: it does not end, its moment
+//! and its numbers are round. What is left cannot be made plainer by
 //! any single one of these steps.
 
 use crate::plan::{Fault, Plan};
@@ -10,10 +10,9 @@ use crate::requirement::Requirement;
 use crate::subject::Subject;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::faults::EventKind;
-use cotama_models::robots as row;
+use cotama_models::robots::Moment;
 use cotama_models::team::scenario::{self, FaultTime};
 use cotama_sim::robots;
-use cotama_sim::supervised::When;
 
 /// The most runs that one plan is shrunk with.
 pub const MAX_RUNS: u64 = 2_000;
@@ -33,25 +32,24 @@ pub struct Shrunk {
 ///
 /// ```
 /// use cotama_core::units::{Millimetres, Millis};
-/// use cotama_models::cotama::FailureMode::{Bat2, Com2, Son2};
 /// use cotama_models::missions::{Mission, embedded};
+/// use cotama_models::robots::Moment;
 /// use cotama_campaign::{plan::{Fault, Plan}, requirement::Requirement, shrink::shrink};
 /// use cotama_campaign::subject::{Policy, Subject};
-/// use cotama_sim::supervised::When;
 /// let delivery = embedded::mission("delivery").unwrap();
 /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
 /// let subject = Subject::new(&mission, Policy::default()).unwrap();
-/// let at = |x| When::Place(Millimetres(x));
-/// let faults = [(3_211, Com2), (17_935, Bat2), (22_222, Son2)];
-/// let faults = faults.map(|(x, mode)| Fault::failure(at(x), mode)).to_vec();
+/// let number = |id| mission.robot().unwrap().robot().failure(id).unwrap();
+/// let at = |x, id| Fault::failure(Moment::Place(Millimetres(x)), number(id));
+/// let faults = vec![at(3_211, "COM2"), at(17_935, "BAT2"), at(22_222, "SON2")];
 /// let shrunk = shrink(&subject, &Requirement::Completed, &Plan { faults });
-/// let only = Fault::failure(When::At(Millis(0)), Bat2);
+/// let only = Fault::failure(Moment::At(Millis(0)), number("BAT2"));
 /// assert_eq!((shrunk.plan.faults, shrunk.minimal), (vec![only], true));
 /// ```
 pub fn shrink(subject: &Subject<'_>, requirement: &Requirement, plan: &Plan) -> Shrunk {
     // A place that was rounded up may lie behind the path, where nothing happens.
     let end = subject.path_length();
-    shrink_by(plan, &mut |it| it.is_within(end) && !requirement.holds(it, &subject.run(it)))
+    shrink_by(plan, &mut |it| it.is_within(end) && !requirement.holds(&subject.run(it)))
 }
 
 /// Makes a plan small that fails by a judgement of the caller's, a function of the plan.
@@ -150,36 +148,17 @@ const PARTS: usize = 4;
 /// A part of a fault made plainer, the plainest first; nothing that is not plainer.
 fn simpler(fault: &Fault, number: usize) -> Vec<Fault> {
     match (fault, number) {
-        (Fault::Failure { when, mode, part, until: Some(_) }, 0) => {
-            vec![Fault::Failure { when: *when, mode: *mode, part: *part, until: None }]
+        (Fault::Failure(it), 0) if it.until.is_some() => {
+            vec![Fault::Failure(robots::Injection { until: None, ..*it })]
         }
-        (Fault::Failure { when, mode, part: Some(_), until }, 1) => {
-            vec![Fault::Failure { when: *when, mode: *mode, part: None, until: *until }]
+        (Fault::Failure(it), 2) => {
+            let with = |when| Fault::Failure(robots::Injection { when, ..*it });
+            moments(it.when).into_iter().map(with).collect()
         }
-        (Fault::Failure { when, mode, part, until }, 2) => {
-            let with = |when| Fault::Failure { when, mode: *mode, part: *part, until: *until };
-            moments(*when).into_iter().map(with).collect()
-        }
-        (Fault::Failure { when, mode, part, until: Some(until) }, 3) => {
-            let with = |until| Fault::Failure {
-                when: *when,
-                mode: *mode,
-                part: *part,
-                until: Some(until),
-            };
+        (Fault::Failure(robots::Injection { until: Some(until), .. }), 3) => {
+            let Fault::Failure(it) = fault else { return Vec::new() };
+            let with = |until| Fault::Failure(robots::Injection { until: Some(until), ..*it });
             moments(*until).into_iter().map(with).collect()
-        }
-        (Fault::Row(it), 0) if it.until.is_some() => {
-            vec![Fault::Row(robots::Injection { until: None, ..*it })]
-        }
-        (Fault::Row(it), 2) => {
-            let with = |when| Fault::Row(robots::Injection { when, ..*it });
-            row_moments(it.when).into_iter().map(with).collect()
-        }
-        (Fault::Row(robots::Injection { until: Some(until), .. }), 3) => {
-            let Fault::Row(it) = fault else { return Vec::new() };
-            let with = |until| Fault::Row(robots::Injection { until: Some(until), ..*it });
-            row_moments(*until).into_iter().map(with).collect()
         }
         (Fault::Event(it), 0) => {
             let kind = |kind| Fault::Event(cotama_models::missions::faults::Event { kind, ..*it });
@@ -223,42 +202,17 @@ fn simpler(fault: &Fault, number: usize) -> Vec<Fault> {
 }
 
 /// Plainer moments: the start, then the same kind with a rounder number.
-fn moments(when: When) -> Vec<When> {
-    let start = (when != When::At(Millis(0))).then_some(When::At(Millis(0)));
-    let rounder: Vec<_> = match when {
-        When::Place(x) => {
-            round(x.0, 0).into_iter().map(|it| When::Place(Millimetres(it))).collect()
+fn moments(when: Moment) -> Vec<Moment> {
+    let start = (when != Moment::At(Millis(0))).then_some(Moment::At(Millis(0)));
+    let (number, with): (u64, Box<dyn Fn(u64) -> Moment>) = match when {
+        Moment::Place(x) => (x.0, Box::new(|it| Moment::Place(Millimetres(it)))),
+        Moment::At(time) => (time.0, Box::new(|it| Moment::At(Millis(it)))),
+        Moment::During(part, after) => {
+            (after.0, Box::new(move |it| Moment::During(part, Millis(it))))
         }
-        When::At(time) => round(time.0, 0).into_iter().map(|it| When::At(Millis(it))).collect(),
-        When::During(state, after) => {
-            round(after.0, 0).into_iter().map(|it| When::During(state, Millis(it))).collect()
-        }
-        When::Fired(act, after) => {
-            round(after.0, 0).into_iter().map(|it| When::Fired(act, Millis(it))).collect()
-        }
+        Moment::Waiting(after) => (after.0, Box::new(|it| Moment::Waiting(Millis(it)))),
     };
-    start.into_iter().chain(rounder).collect()
-}
-
-/// The same of a failure of a robot's file.
-fn row_moments(when: row::Moment) -> Vec<row::Moment> {
-    let start = row::Moment::At(Millis(0));
-    let start = (when != start).then_some(start);
-    let rounder: Vec<_> = match when {
-        row::Moment::Place(x) => {
-            round(x.0, 0).into_iter().map(|it| row::Moment::Place(Millimetres(it))).collect()
-        }
-        row::Moment::At(time) => {
-            round(time.0, 0).into_iter().map(|it| row::Moment::At(Millis(it))).collect()
-        }
-        row::Moment::During(part, after) => {
-            round(after.0, 0).into_iter().map(|it| row::Moment::During(part, Millis(it))).collect()
-        }
-        row::Moment::Waiting(after) => {
-            round(after.0, 0).into_iter().map(|it| row::Moment::Waiting(Millis(it))).collect()
-        }
-    };
-    start.into_iter().chain(rounder).collect()
+    start.into_iter().chain(round(number, 0).into_iter().map(with)).collect()
 }
 
 /// Rounder numbers near a number, the roundest first: fewer digits that are not zero, then smaller.

@@ -11,10 +11,9 @@ use cotama_models::missions::{Definition, Mission};
 use cotama_models::team::scenario::Scenario;
 use cotama_sim::fleet;
 use cotama_sim::options::{FaultChoice, Options, Planner, upward};
-use cotama_sim::robots::{self, Driven};
+use cotama_sim::robots::{self, Driven, Monitor, Unmonitored};
 use cotama_sim::run::NoPlan;
 use cotama_sim::setup::Simulation;
-use cotama_sim::supervised::{Monitor, Script, Supervised, Unmonitored};
 use std::ops::RangeInclusive;
 
 mod story;
@@ -44,18 +43,9 @@ pub struct Subject<'m> {
 #[derive(Clone, Debug)]
 enum Robot<'m> {
     Plain(&'m Mission, Box<Simulation<'m>>),
-    Supervised(&'m Mission, Box<Supervised<'m>>, Watched),
     /// Under the supervisors of a robot's file.
     Driven(&'m Mission, Box<Driven<'m>>, Vec<Monitor>),
     Team(Box<Scenario>, Option<fleet::Planted>),
-}
-
-/// The monitors that watch while a run goes on, and after.
-#[derive(Clone, Debug, Default)]
-struct Watched {
-    monitors: Vec<Monitor>,
-    /// For how long the robot must stand when it is safe.
-    after: Millis,
 }
 
 /// For how long a robot that is safe is watched: whether it moves again.
@@ -137,14 +127,6 @@ impl<'m> Subject<'m> {
             let driven = driven.with_planner(policy.of(mission));
             driven.run(&robots::Script::default()).map_err(no_plan)?;
             Robot::Driven(mission, Box::new(driven), Vec::new())
-        } else if mission.supervisor().is_some() {
-            if policy.upward || policy.rigid {
-                return Err(Unready::Policy);
-            }
-            let supervised = Supervised::new(mission).map_err(Unready::Unsupervised)?;
-            let supervised = supervised.with_planner(policy.of(mission));
-            supervised.run(&Script::default()).map_err(no_plan)?;
-            Robot::Supervised(mission, Box::new(supervised), Watched::default())
         } else {
             let options = policy.options(mission, FaultChoice::None);
             let simulation = Simulation::new(mission, &options).map_err(Unready::Setup)?;
@@ -170,13 +152,6 @@ impl<'m> Subject<'m> {
     /// Returns the name of the mission in the files of its failures.
     pub fn source(&self) -> Option<&str> {
         self.source.as_deref()
-    }
-
-    /// A supervised mission whose supervisors or planner were chosen by the caller.
-    pub fn of(mission: &'m Mission, supervised: Supervised<'m>) -> Self {
-        let policy = Policy { planner: Some(supervised.planner()), ..Policy::default() };
-        let robot = Robot::Supervised(mission, Box::new(supervised), Watched::default());
-        Self { name: mission.name.clone(), policy, source: None, robot }
     }
 
     /// A team at work; its own faults are replaced by those of each plan. It is completed when all
@@ -213,42 +188,17 @@ impl<'m> Subject<'m> {
     /// assert_eq!((witness.at_ms, witness.seen), (166_200, vec!["gs.g3".to_owned()]));
     /// ```
     pub fn watching(self, requirements: &[Requirement]) -> Result<Self, Unready> {
-        let about = |it: &&Requirement| it.needs_supervisors();
-        if let Robot::Driven(mission, driven, _) = self.robot {
-            let monitors = watched(requirements, |text| driven.monitor(text))?;
-            if requirements.contains(&Requirement::Conforms) {
-                return Err(Unready::Shipped);
-            }
-            let stands = requirements.contains(&Requirement::StandsWhenSafe);
-            let after = if stands { AFTER } else { Millis(0) };
-            let driven = driven.with_monitors(monitors.clone()).watched_for(after);
-            return Ok(Self { robot: Robot::Driven(mission, Box::new(driven), monitors), ..self });
-        }
-        let (mission, supervised) = match (self.robot, requirements.iter().find(about)) {
-            (Robot::Plain(..) | Robot::Team(..), Some(it)) => {
-                return Err(Unready::Plain(it.to_string()));
-            }
-            (robot @ (Robot::Plain(..) | Robot::Team(..)), None) => {
-                return Ok(Self { robot, ..self });
-            }
-            (Robot::Supervised(mission, supervised, _), _) => (mission, supervised),
-            (Robot::Driven(mission, driven, monitors), _) => {
-                return Ok(Self { robot: Robot::Driven(mission, driven, monitors), ..self });
-            }
+        let Robot::Driven(mission, driven, _) = self.robot else {
+            return match requirements.iter().find(|it| it.needs_supervisors()) {
+                Some(it) => Err(Unready::Plain(it.to_string())),
+                None => Ok(self),
+            };
         };
-        let monitors = watched(requirements, |text| supervised.monitor(text))?;
-        let supervised = supervised.with_monitors(monitors.clone());
-        let conforms = requirements.contains(&Requirement::Conforms);
-        let supervised = match conforms.then(|| supervised.clone().compared()) {
-            Some(None) => return Err(Unready::Shipped),
-            Some(Some(compared)) => compared,
-            None => supervised.uncompared(),
-        };
+        let monitors = watched(requirements, |text| driven.monitor(text))?;
         let stands = requirements.contains(&Requirement::StandsWhenSafe);
         let after = if stands { AFTER } else { Millis(0) };
-        let watched = Watched { monitors, after };
-        let robot = Robot::Supervised(mission, Box::new(supervised), watched);
-        Ok(Self { robot, ..self })
+        let driven = driven.with_monitors(monitors.clone()).watched_for(after);
+        Ok(Self { robot: Robot::Driven(mission, Box::new(driven), monitors), ..self })
     }
 
     /// Returns the name of the mission or team.
@@ -259,9 +209,7 @@ impl<'m> Subject<'m> {
     /// Returns the mission; `None` of a team.
     pub const fn mission(&self) -> Option<&'m Mission> {
         match &self.robot {
-            Robot::Plain(mission, _)
-            | Robot::Supervised(mission, ..)
-            | Robot::Driven(mission, ..) => Some(mission),
+            Robot::Plain(mission, _) | Robot::Driven(mission, ..) => Some(mission),
             Robot::Team(..) => None,
         }
     }
@@ -297,9 +245,9 @@ impl<'m> Subject<'m> {
     /// Returns the space of possible faults.
     pub fn space(&self, rates: Rates, faults: RangeInclusive<u64>) -> Space {
         match &self.robot {
-            Robot::Plain(mission, _)
-            | Robot::Supervised(mission, ..)
-            | Robot::Driven(mission, ..) => Space::of(mission, rates, faults),
+            Robot::Plain(mission, _) | Robot::Driven(mission, ..) => {
+                Space::of(mission, rates, faults)
+            }
             Robot::Team(team, _) => Space::of_team(team, rates, faults),
         }
     }
@@ -307,9 +255,7 @@ impl<'m> Subject<'m> {
     /// Returns the planner in words; of a team the allocation of its tasks.
     pub fn words(&self) -> String {
         match &self.robot {
-            Robot::Plain(mission, _)
-            | Robot::Supervised(mission, ..)
-            | Robot::Driven(mission, ..) => self.policy.words(mission),
+            Robot::Plain(mission, _) | Robot::Driven(mission, ..) => self.policy.words(mission),
             Robot::Team(team, _) => format!("allocation {}", team.method.name()),
         }
     }
@@ -317,9 +263,7 @@ impl<'m> Subject<'m> {
     /// Writes the faults of a plan as the text of a file, a line each.
     pub fn text(&self, plan: &Plan) -> String {
         match &self.robot {
-            Robot::Plain(mission, _)
-            | Robot::Supervised(mission, ..)
-            | Robot::Driven(mission, ..) => plan.compact(mission),
+            Robot::Plain(mission, _) | Robot::Driven(mission, ..) => plan.compact(mission),
             Robot::Team(team, _) => team.faults_to_toml(&plan.of_team()),
         }
     }
@@ -332,9 +276,7 @@ impl<'m> Subject<'m> {
     /// Reads a plan from the text of its faults; `None` for another text.
     pub fn plan(&self, text: &str) -> Option<Plan> {
         match &self.robot {
-            Robot::Plain(mission, _)
-            | Robot::Supervised(mission, ..)
-            | Robot::Driven(mission, ..) => {
+            Robot::Plain(mission, _) | Robot::Driven(mission, ..) => {
                 Some(Plan::from(&Faults::parse("a result", text, mission).ok()?))
             }
             Robot::Team(team, _) => {
@@ -351,7 +293,7 @@ impl<'m> Subject<'m> {
 
     /// Whether supervisors decide.
     pub const fn is_supervised(&self) -> bool {
-        matches!(self.robot, Robot::Supervised(..) | Robot::Driven(..))
+        matches!(self.robot, Robot::Driven(..))
     }
 
     /// One run; a function of the plan alone.
@@ -368,14 +310,6 @@ impl<'m> Subject<'m> {
             Robot::Team(team, planted) => {
                 let team = Scenario { faults: plan.of_team(), ..(**team).clone() };
                 Observed::of_team(&fleet::run_with(&team, *planted))
-            }
-            Robot::Supervised(_, it, watched) => {
-                // There is a plan at the start: that does not depend on what fails later.
-                let run = it.run_and_watch(&Script::from(plan), watched.after);
-                run.map_or_else(
-                    |_| Observed::nothing(),
-                    |(run, _)| Observed::of(&run, &watched.monitors),
-                )
             }
         }
     }

@@ -107,13 +107,18 @@ impl<'m> CampaignTest<'m> {
     /// [`Requirement`]'s language, a property of the supervisors
     /// among them, as [`check`](Self::check) does; what broke a property stands above the plan.
     ///
-    /// ```should_panic
+    /// ```
     /// use cotama_models::missions::{Mission, embedded};
     /// use cotama_campaign::testing::CampaignTest;
+    /// use std::panic::{AssertUnwindSafe, catch_unwind};
     /// let delivery = embedded::mission("delivery").unwrap();
     /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+    /// let test = CampaignTest::new(&mission);
     /// // The operator takes longer than that to answer.
-    /// CampaignTest::new(&mission).requires("AG (ls.HandOver -> AF<=5s !ls.HandOver)");
+    /// let asked = "AG (ls.Waits -> AF<=5s !ls.Waits)";
+    /// let failed = catch_unwind(AssertUnwindSafe(|| test.requires(asked))).unwrap_err();
+    /// let said = failed.downcast::<String>().unwrap();
+    /// assert!(said.starts_with(&format!("`{asked}` does not hold of run ")), "{said}");
     /// ```
     ///
     /// # Panics
@@ -128,7 +133,7 @@ impl<'m> CampaignTest<'m> {
             Ok(subject) => subject,
             Err(error) => panic!("{error}"),
         };
-        if let Some(found) = self.search(&subject, &|plan, run| asked.holds(plan, run)) {
+        if let Some(found) = self.search(&subject, &|_, run| asked.holds(run)) {
             self.fail(requirement, found);
         }
     }

@@ -10,8 +10,7 @@ use cotama_campaign::run::Campaign;
 use cotama_campaign::sampling::Sampling;
 use cotama_campaign::statistics::Interval;
 use cotama_core::text::markup;
-use cotama_models::cotama::FailureMode;
-use cotama_models::missions::faults::Moment;
+use cotama_models::robots::Robot;
 use std::fmt::Write;
 
 /// The most causes that are shown with their files.
@@ -56,8 +55,9 @@ pub fn html(
     if !team {
         page.push_str(&pictures::ends(tally, campaign.subject.path_length().0));
     }
-    if campaign.subject.is_supervised() {
-        coverage(&mut page, tally);
+    let robot = campaign.subject.mission().and_then(|it| it.robot());
+    if let Some(robot) = robot {
+        coverage(&mut page, tally, robot.robot());
     }
     page.push_str(&pictures::settles(tally, sampling, confidence));
     assumptions(&mut page, header, sampling);
@@ -263,8 +263,9 @@ fn shell_word(word: &str) -> String {
 }
 
 /// Rows of the FMECA by the place of the local supervisor, as a heat map.
-fn coverage(page: &mut String, tally: &Tally) {
-    let states = Moment::STATES.map(|it| it.0);
+fn coverage(page: &mut String, tally: &Tally, robot: &Robot) {
+    let parts = robot.sub_objectives.iter().map(|it| it.name.as_str());
+    let states: Vec<&str> = parts.chain(["Waits"]).collect();
     let most = tally.cells.values().map(|it| it.0).max().unwrap_or(1).max(1) as f64;
     page.push_str(
         "<section><h2>What was covered</h2>\n<p>In how many runs a row of the FMECA was met in \
@@ -272,14 +273,14 @@ fn coverage(page: &mut String, tally: &Tally) {
          <div class=\"scroll\"><table class=\"heat\">\n<tr><th></th>",
     );
     states.iter().for_each(|it| {
-        let _ = write!(page, "<th>{it}</th>");
+        let _ = write!(page, "<th>{}</th>", markup(it));
     });
     page.push_str("</tr>\n");
     let mut empty = 0;
-    for mode in FailureMode::ALL {
-        let _ = write!(page, "<tr><th>{}</th>", mode.name());
-        for state in states {
-            let cell = tally.cells.get(&format!("{}@{state}", mode.name()));
+    for row in &robot.failures {
+        let _ = write!(page, "<tr><th>{}</th>", markup(&row.id));
+        for state in &states {
+            let cell = tally.cells.get(&format!("{}@{state}", row.id));
             let (met, failing) = cell.copied().unwrap_or((0, 0));
             empty += u64::from(met == 0);
             // The shade is the root of the share, so that rare cells are seen beside frequent ones.
@@ -298,7 +299,7 @@ fn coverage(page: &mut String, tally: &Tally) {
         page,
         "</table></div>\n<p class=\"note\">{} of {} cells were not met.</p></section>\n",
         empty,
-        FailureMode::ALL.len() * states.len()
+        robot.failures.len() * states.len()
     );
 }
 

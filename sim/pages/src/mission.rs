@@ -15,6 +15,7 @@ mod decisions;
 mod events;
 mod glossary;
 mod headline;
+mod lanes;
 mod path_axis;
 mod plans;
 mod replans;

@@ -289,7 +289,7 @@ fn the_delivery_shows_seven_points_with_their_decisions_and_how_far_up_they_went
     // Marked in both figures, wide and narrow.
     assert_eq!(page.matches("<circle class=\"pin point\"").count(), 7 * 4);
     for lane in
-        ["Failures", "Mode", "Runs", "Global", "Local", "Adapter PF", "Adapter TO", "Permit"]
+        ["Failures", "Mode", "Runs", "Global", "Local", "Following", "Teleoperat…", "Permit"]
     {
         assert!(page.contains(&format!(">{lane}</text>")), "{lane}");
     }
@@ -299,14 +299,15 @@ fn the_delivery_shows_seven_points_with_their_decisions_and_how_far_up_they_went
     };
     assert_eq!(table.matches("<tr class=\"point\">").count(), 7);
     assert!(table.contains(
-        "<td>sonar far <small>4.9\u{a0}s</small></td><td>SON1</td><td>sonar</td>\
-        <td>medium → adapter</td><td>adapter</td><td><b>adapt_sonar</b> <small>5.0\u{a0}s, sonar1\
-        </small></td><td>pf a8 <small>5.1\u{a0}s</small></td><td class=\"n\">5.2\u{a0}s</td>"
+        "<td>sonar far <small>4.9\u{a0}s</small></td><td>SON1</td><td>SON1</td>\
+        <td>medium → adapter</td><td>adapter</td><td><b>adapt_Following</b> <small>5.0\u{a0}s, \
+        SON1_PF_OPT1</small></td><td>following PF_OPT_adapts8 <small>5.1\u{a0}s</small></td>\
+        <td class=\"n\">–</td>"
     ));
     let steps = |rung: &str| ladder.matches(&format!("<td class=\"step {rung}\">")).count();
     assert_eq!(
         ["parameter", "set", "activity", "objective", "mission"].map(steps),
-        [1, 1, 4, 1, 0]
+        [2, 1, 4, 1, 0]
     );
     assert!(page.contains("Point 6, SON1: sonar array, one transducer stuck at maximum range."));
     assert!(page.contains("<dt>Failures</dt><dd>4, 4 found</dd>"));
@@ -318,7 +319,7 @@ fn a_supervised_mission_that_is_given_up_says_why() {
     assert_sound(&page);
     assert!(
         page.contains(
-            "The robot stands at 5.0\u{a0}m: the global supervisor ended the mission: battery"
+            "The robot stands at 5.0\u{a0}m: the global supervisor ended the mission: critical"
         ),
         "{page}"
     );

@@ -4,8 +4,8 @@ use super::uniform::of_run;
 use super::{Draws, Strategy};
 use crate::plan::Plan;
 use crate::space::Space;
+use cotama_models::robots::Moment;
 use cotama_sim::streams::Streams;
-use cotama_sim::supervised::When;
 
 /// Every plan with as many faults as the space has at most, over its [timeline](Space::timeline):
 /// every kind and every moment of each fault, in the order of their numbers. Parameters (modules,
@@ -18,7 +18,7 @@ pub struct Exhaustive;
 pub(super) struct Factors {
     faults: usize,
     kinds: u64,
-    timeline: Vec<When>,
+    timeline: Vec<Moment>,
 }
 
 impl Factors {

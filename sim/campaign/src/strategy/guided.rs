@@ -7,11 +7,9 @@ use crate::observed::Observed;
 use crate::plan::{Fault, Plan};
 use crate::space::{Kind, Space};
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::Module;
-use cotama_models::robots as row;
+use cotama_models::robots::Moment;
 use cotama_models::team::scenario::FaultTime;
 use cotama_sim::streams::{Stream, Streams};
-use cotama_sim::supervised::When;
 use std::collections::BTreeMap;
 
 /// Guided by coverage.
@@ -26,8 +24,6 @@ pub struct Guided;
 
 /// How far the moment of a fault is moved at most, in mm or ms.
 const MOVED: u64 = 10_000;
-/// A row about one module, whichever it is, stands for many failures: so many cards has each.
-const CARDS_OF_MODULES: usize = 4;
 
 impl Strategy for Guided {
     fn block<'s>(&'s self, space: &'s Space, seed: u64, first: u64) -> Box<dyn Draws + 's> {
@@ -36,7 +32,6 @@ impl Strategy for Guided {
             streams: Streams::new(seed),
             run: first,
             kinds: Vec::new(),
-            modules: Vec::new(),
             known: BTreeMap::new(),
             nearest: i64::MAX,
             kept: Vec::new(),
@@ -58,9 +53,8 @@ struct Corpus<'s> {
     space: &'s Space,
     streams: Streams,
     run: u64,
-    /// Decks: what is left of them.
+    /// The deck: what is left of it.
     kinds: Vec<Kind>,
-    modules: Vec<Module>,
     /// How many runs came through each feature.
     known: BTreeMap<u64, u64>,
     nearest: i64,
@@ -107,26 +101,15 @@ impl Corpus<'_> {
         plan
     }
 
-    /// A fault of the next kind, and of the next module if it is about one.
+    /// A fault of the next kind.
     fn card(&mut self, stream: &mut Stream) -> Fault {
         if self.kinds.is_empty() {
-            let copies = |kind: Kind| {
-                let of_modules = matches!(kind, Kind::Failure(mode) if mode.rule().one_module);
-                std::iter::repeat_n(kind, if of_modules { CARDS_OF_MODULES } else { 1 })
-            };
-            self.kinds = self.space.kinds.iter().flat_map(|it| copies(it.kind)).collect();
+            self.kinds = self.space.kinds.iter().map(|it| it.kind).collect();
             shuffle(&mut self.kinds, stream);
         }
         let kind = self.kinds.pop().unwrap_or(Kind::Obstacle);
         let when = self.space.moment(stream);
         let mut fault = self.space.with(kind, when, stream);
-        if let Fault::Failure { part: Some(part), .. } = &mut fault {
-            if self.modules.is_empty() {
-                self.modules = Module::ALL.to_vec();
-                shuffle(&mut self.modules, stream);
-            }
-            *part = self.modules.pop().unwrap_or(*part);
-        }
         if stream.below(4) == 0 {
             race(&mut fault, self.space, stream);
         }
@@ -185,16 +168,14 @@ fn near(value: u64, most: u64, stream: &mut Stream) -> u64 {
     (value + stream.below(2 * MOVED + 1)).saturating_sub(MOVED).min(most)
 }
 
-/// Moves a moment of a failure of a robot's file.
-fn moved(when: row::Moment, anywhere: bool, space: &Space, stream: &mut Stream) -> row::Moment {
+/// Moves the moment of a failure.
+fn moved(when: Moment, anywhere: bool, space: &Space, stream: &mut Stream) -> Moment {
     match when {
-        _ if anywhere => space.row_moment(stream),
-        row::Moment::Place(x) => row::Moment::Place(Millimetres(near(x.0, space.path_mm, stream))),
-        row::Moment::At(it) => row::Moment::At(Millis(near(it.0, space.time_ms, stream))),
-        row::Moment::During(part, it) => {
-            row::Moment::During(part, Millis(near(it.0, 60_000, stream)))
-        }
-        row::Moment::Waiting(it) => row::Moment::Waiting(Millis(near(it.0, 60_000, stream))),
+        _ if anywhere => space.moment(stream),
+        Moment::Place(x) => Moment::Place(Millimetres(near(x.0, space.path_mm, stream))),
+        Moment::At(it) => Moment::At(Millis(near(it.0, space.time_ms, stream))),
+        Moment::During(part, it) => Moment::During(part, Millis(near(it.0, 60_000, stream))),
+        Moment::Waiting(it) => Moment::Waiting(Millis(near(it.0, 60_000, stream))),
     }
 }
 
@@ -202,19 +183,6 @@ fn moved(when: row::Moment, anywhere: bool, space: &Space, stream: &mut Stream) 
 fn move_it(fault: &mut Fault, space: &Space, stream: &mut Stream) {
     let anywhere = stream.below(3) == 0;
     match fault {
-        Fault::Failure { when, part, .. } => {
-            if part.is_some() && stream.below(3) == 0 {
-                *part = Some(space.part(stream));
-                return;
-            }
-            *when = match *when {
-                _ if anywhere => space.moment(stream),
-                When::Place(x) => When::Place(Millimetres(near(x.0, space.path_mm, stream))),
-                When::At(it) => When::At(Millis(near(it.0, space.time_ms, stream))),
-                When::During(state, it) => When::During(state, Millis(near(it.0, 60_000, stream))),
-                When::Fired(act, it) => When::Fired(act, Millis(near(it.0, 60_000, stream))),
-            };
-        }
         Fault::Event(it) => {
             it.x.0 = if anywhere {
                 stream.below(space.path_mm + 1)
@@ -222,9 +190,9 @@ fn move_it(fault: &mut Fault, space: &Space, stream: &mut Stream) {
                 near(it.x.0, space.path_mm, stream)
             };
         }
-        Fault::Row(it) => it.when = moved(it.when, anywhere, space, stream),
+        Fault::Failure(it) => it.when = moved(it.when, anywhere, space, stream),
         Fault::Power(it) => it.permille = i32::try_from(stream.below(401)).unwrap_or(0) - 100,
-        Fault::Operator(_) | Fault::Replies(_) => *fault = space.answers(stream),
+        Fault::Operator(_) => *fault = space.answers(stream),
         Fault::Team(it) => {
             if let FaultTime::At(at) = &mut it.when {
                 *at = if anywhere {

@@ -46,17 +46,17 @@ fn racing(space: &Space, stream: &mut Stream) -> Plan {
 
 /// The failure is seen about when a supervisor acts.
 pub(super) fn race(fault: &mut Fault, space: &Space, stream: &mut Stream) {
-    if let Fault::Failure { when, mode, until, .. } = fault
-        && let Some(race) = space.race(*mode, stream)
+    if let Fault::Failure(it) = fault
+        && let Some(race) = space.race(it.failure, stream)
     {
-        (*when, *until) = (race, None);
+        (it.when, it.until) = (race, None);
     }
 }
 
 /// One plan in three has an operator with answers of his own, where there are supervisors: as one
 /// of its faults.
 pub(super) fn answer(plan: &mut Plan, space: &Space, stream: &mut Stream) {
-    if space.supervised && stream.below(3) == 0 {
+    if !space.parts.is_empty() && stream.below(3) == 0 {
         plan.faults.truncate(space.most.saturating_sub(1) as usize);
         plan.faults.push(space.answers(stream));
     }

@@ -31,7 +31,7 @@ impl Subject<'_> {
     }
 
     /// Returns a failure of a robot's file in words.
-    pub(crate) fn story_of_row(&self, it: &robots::Injection) -> String {
+    pub(crate) fn story_of_failure(&self, it: &robots::Injection) -> String {
         let robot = self.mission().and_then(|it| it.robot()).map(RobotFile::robot);
         let row = robot.and_then(|robot| robot.failures.get(it.failure));
         let what = row.map_or_else(String::new, |it| format!("{} fails: {}", it.id, it.mode));

@@ -1,9 +1,8 @@
 //! Why a mission cannot be the subject of a campaign.
 
-use cotama_sim::robots::Undriven;
+use cotama_sim::robots::{Undriven, Unmonitored};
 use cotama_sim::run::NoPlan;
 use cotama_sim::setup::SetupError;
-use cotama_sim::supervised::{Unmonitored, Unsupervised};
 use std::fmt;
 
 /// Why a mission cannot be the subject of a campaign.
@@ -11,8 +10,6 @@ use std::fmt;
 pub enum Unready {
     /// The mission cannot be set up.
     Setup(SetupError),
-    /// The supervisors cannot be made.
-    Unsupervised(Unsupervised),
     /// The supervisors of the robot's file cannot be played.
     Undriven(Undriven),
     /// The mission has no plan, even if nothing fails: the reason, and the same in words.
@@ -23,15 +20,12 @@ pub enum Unready {
     Property(String, Unmonitored),
     /// A requirement is about supervisors, and the mission has none: its text.
     Plain(String),
-    /// Supervisors that are shipped are to be held against themselves.
-    Shipped,
 }
 
 impl fmt::Display for Unready {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Setup(error) => error.fmt(f),
-            Self::Unsupervised(error) => error.fmt(f),
             Self::Undriven(error) => error.fmt(f),
             Self::NoPlan(_, why) => write!(
                 f,
@@ -42,9 +36,6 @@ impl fmt::Display for Unready {
                 f.write_str("upward and rigid policies are for missions without supervisors")
             }
             Self::Property(text, why) => write!(f, "`{}`: {why}", text.escape_debug()),
-            Self::Shipped => {
-                f.write_str("`conforms` is for supervisors of your own: these are the shipped ones")
-            }
             Self::Plain(text) => write!(
                 f,
                 "`{}` is about supervisors, and the mission has none",

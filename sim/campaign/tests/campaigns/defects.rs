@@ -1,14 +1,15 @@
-//! The defects that are planted.
+//! The defects that are planted: in the text of the delivery's robot, and in a local supervisor of
+//! its own.
 
 use cotama_campaign::requirement::Requirement;
-use cotama_campaign::subject::Subject;
-use cotama_core::net::{Arc, Net, OutputId, PlaceId, Role, Transition};
-use cotama_core::system::{Clear, Component, System};
-use cotama_core::units::Millis;
-use cotama_models::cotama::FailureMode::{Bat2, Cam1, Com1, Loc2, Mot1, Mot4, Odo1, Son1, Son2};
-use cotama_models::cotama::{FailureMode, REQUIREMENTS, delivery};
-use cotama_models::missions::Mission;
-use cotama_sim::supervised::{Planted, Supervised};
+use cotama_core::net::PlaceId;
+use cotama_core::net::owned::{OwnedNet, OwnedTransition};
+use cotama_models::missions::{Mission, embedded};
+use cotama_models::robots::supervisors::system;
+use cotama_models::robots::{Robot, RobotFile};
+
+/// The robot whose file the defects are planted in.
+const ROBOT: &str = "p3dx-delivery";
 
 /// A defect and the requirement that it should break.
 pub(crate) struct Defect {
@@ -18,214 +19,221 @@ pub(crate) struct Defect {
 }
 
 enum Change {
-    /// A transition says nothing.
-    Silent(&'static str),
-    /// The transition does not read these flags.
-    Without(&'static str, &'static [&'static str]),
-    /// Neither the local supervisor nor the operator looks at whether there is a camera.
-    Blind,
-    /// The transition emits this in place of its outputs.
-    Says(&'static str, &'static str),
-    /// The transition goes from a place to another one.
-    Moved(&'static str, &'static str, &'static str),
-    /// There is one more like it, from a place to another one.
-    Also(&'static str, &'static str, &'static str),
-    /// An event leaves what waits in a mailbox: the system's own empties it.
-    Keeps(&'static str),
-    Planted(Planted),
+    /// Other words in the tables that begin with a line: table, old words, new words.
+    Text(&'static [(&'static str, &'static str, &'static str)]),
+    /// A local supervisor of its own: the one that is made, with a change.
+    Local(fn(&mut OwnedNet)),
 }
 
-/// The shipped system with one transition, `net.transition`, and its variants changed; test data,
-/// which lives to the end.
-fn with(
-    name: &str,
-    change: impl Fn(&'static Net<'static>, &mut Transition<'static>),
-) -> System<'static> {
-    let (net, transition) = name.split_once('.').unwrap();
-    let mut components = delivery::SYSTEM.components.to_vec();
-    let it = components.iter_mut().find(|it| it.name == net).unwrap();
-    let mut transitions = it.net.transitions.to_vec();
-    let named = transitions.iter_mut().filter(|it| it.name.split('.').next() == Some(transition));
-    assert_ne!(named.map(|of| change(it.net, of)).count(), 0, "{name}");
-    let net = Box::leak(Box::new(Net { transitions: transitions.leak(), ..*it.net }));
-    *it = Component { name: it.name, net };
-    System { components: components.leak(), ..delivery::SYSTEM }
-}
-
-fn without(name: &str, flags: &[&str]) -> System<'static> {
-    with(name, |net, it| {
-        let is_it = |arc: &&Arc| {
-            let place = &net.places[arc.place.0 as usize];
-            let of = if let Role::Complement(of) = place.role { of } else { arc.place };
-            !flags.contains(&net.places[of.0 as usize].name)
-        };
-        let kept: Vec<_> = it.read.iter().filter(is_it).copied().collect();
-        assert_ne!(kept.len(), it.read.len(), "{name} does not look at {flags:?}");
-        it.read = kept.leak();
-    })
+/// A text with other words in one of its tables.
+fn edited(text: &str, (table, old, new): (&str, &str, &str)) -> String {
+    let at = text.find(&format!("{table}\n")).unwrap_or_else(|| panic!("{table}"));
+    let end = text[at..].find("\n\n").map_or(text.len(), |it| at + it);
+    assert!(text[at..end].contains(old), "{table} does not say {old}");
+    format!("{}{}{}", &text[..at], text[at..end].replacen(old, new, 1), &text[end..])
 }
 
 impl Change {
-    fn system(&self) -> System<'static> {
-        match *self {
-            Self::Silent(name) => with(name, |_, it| it.emits = &[]),
-            Self::Without(name, flags) => without(name, flags),
-            Self::Blind => {
-                let without = |name| without(name, &["camera"]).components;
-                let (supervisor, operator) = (without("ls.l7"), without("operator.teleoperate"));
-                let mut components = supervisor.to_vec();
-                let at = components.iter().position(|it| it.name == "operator").unwrap();
-                components[at] = operator[at];
-                System { components: components.leak(), ..delivery::SYSTEM }
+    fn robot(&self) -> RobotFile {
+        let shipped = cotama_models::robots::embedded(ROBOT).unwrap().text;
+        match self {
+            Self::Text(edits) => {
+                let text = edits.iter().fold(shipped.to_owned(), |text, it| edited(&text, *it));
+                RobotFile::parse(ROBOT, &text).unwrap_or_else(|errors| panic!("{errors}"))
             }
-            Self::Also(name, from, to) => {
-                let system = Self::Moved(name, from, to).system();
-                let (net, transition) = name.split_once('.').unwrap();
-                let mut components = system.components.to_vec();
-                let at = components.iter().position(|it| it.name == net).unwrap();
-                let moved = components[at].net;
-                let of = |it: &&Transition| it.name.split('.').next() == Some(transition);
-                let shipped = delivery::SYSTEM.components[at].net.transitions;
-                let more = moved.transitions.iter().filter(of).copied();
-                let more = more.map(|it| Transition { name: "stale", ..it });
-                let transitions = shipped.iter().copied().chain(more).collect::<Vec<_>>().leak();
-                components[at].net = Box::leak(Box::new(Net { transitions, ..*moved }));
-                System { components: components.leak(), ..delivery::SYSTEM }
+            Self::Local(change) => {
+                let mut nets = system(&Robot::shipped(ROBOT).unwrap()).nets;
+                let at = nets.iter().position(|it| it.0 == "ls").unwrap();
+                let made = nets.swap_remove(at).1;
+                let mut own = made.clone();
+                change(&mut own);
+                assert_ne!(own, made);
+                let text = format!("{shipped}\n[supervisors]\nlocal = \"local\"\n");
+                let read = RobotFile::parse_with(ROBOT, &text, &mut |_| Ok(own.clone()));
+                read.unwrap_or_else(|errors| panic!("{errors}"))
             }
-            Self::Keeps(mailbox) => {
-                let kept = |it: &&Clear| {
-                    let component = &delivery::SYSTEM.components[usize::from(it.on.component)];
-                    let event = component.net.events[it.mailbox.0 as usize].name;
-                    format!("{}.{event}", component.name) != mailbox
-                };
-                let clears: Vec<_> = delivery::SYSTEM.clears.iter().filter(kept).copied().collect();
-                assert_ne!(clears.len(), delivery::SYSTEM.clears.len(), "{mailbox}");
-                System { clears: clears.leak(), ..delivery::SYSTEM }
-            }
-            Self::Says(name, output) => with(name, |net, it| {
-                let output = net.outputs.iter().position(|it| it.name == output).unwrap();
-                it.emits = vec![OutputId(output as u32)].leak();
-            }),
-            Self::Moved(name, from, to) => with(name, |net, it| {
-                let arc = |name| {
-                    let place = net.places.iter().position(|it| it.name == name).unwrap();
-                    Arc { place: PlaceId(place as u32), weight: 1 }
-                };
-                (it.take, it.give) = (vec![arc(from)].leak(), vec![arc(to)].leak());
-            }),
-            Self::Planted(_) => delivery::SYSTEM,
         }
     }
 }
 
 impl Defect {
-    /// Returns the subject, ready to be run, and watched for the requirements that the defect
-    /// breaks.
-    pub(crate) fn subject<'m>(&self, mission: &'m Mission) -> Subject<'m> {
-        let subject = Subject::of(mission, self.supervised(mission));
-        subject.watching(std::slice::from_ref(&self.breaks)).unwrap()
-    }
-
-    fn supervised<'m>(&self, mission: &'m Mission) -> Supervised<'m> {
-        let supervised = Supervised::of_supervisors(mission, self.change.system()).unwrap();
-        match self.change {
-            Change::Planted(it) => supervised.with_planted(vec![it]),
-            _ => supervised,
-        }
+    /// Returns the delivery of the robot that has it.
+    pub(crate) fn mission(&self) -> Mission {
+        let delivery = embedded::mission("delivery").unwrap();
+        Mission::parse_under(delivery.name, delivery.text, Some(self.change.robot())).unwrap()
     }
 }
 
-/// A requirement of the delivery, by its id.
-fn required(id: &str) -> Requirement {
-    let found = REQUIREMENTS.iter().find(|it| it.id == id).unwrap();
-    Requirement::Always(found.asked.unwrap().text.to_owned())
+fn transition<'n>(net: &'n mut OwnedNet, name: &str) -> &'n mut OwnedTransition {
+    net.transitions.iter_mut().find(|it| it.name == name).unwrap()
 }
 
-/// Returns the requirement that a lost module is used at the ends of two rounds at most: AS2, of
-/// one module.
-fn unused(lost: &str, by: &str) -> Requirement {
-    Requirement::Always(format!("AG (!faults.{lost} & ({by}) -> AF<=200ms !({by}))"))
+/// Leaves out what a transition asks of.
+fn without(net: &mut OwnedNet, name: &str, places: &[&str]) {
+    let names: Vec<_> = net.places.iter().map(|it| it.name.clone()).collect();
+    let of = |it: PlaceId| names[it.0 as usize].trim_start_matches('!');
+    transition(net, name).read.retain(|it| !places.contains(&of(it.place)));
 }
 
-/// All of them. F1 to F6 are findings of the reconstruction (requirements of the delivery).
+/// Leaves out a transition.
+fn never(net: &mut OwnedNet, name: &str) {
+    net.transitions.retain(|it| it.name != name);
+}
+
+/// Takes a step whatever is lost: the first of the transitions with this name and a number.
+fn always(net: &mut OwnedNet, name: &str) {
+    let numbered = |it: &str| it.strip_prefix(name).is_some_and(|it| it.parse::<u32>().is_ok());
+    let first = format!("{name}1");
+    net.transitions.retain(|it| it.name == first || !numbered(&it.name));
+    transition(net, &first).read.clear();
+}
+
+/// Leaves out an output of a transition.
+fn unsaid(net: &mut OwnedNet, name: &str, output: &str) {
+    let at = net.outputs.iter().position(|it| it.name == output).unwrap();
+    transition(net, name).emits.retain(|it| it.0 as usize != at);
+}
+
+const NOBODY: &str = "unseen = \"nobody looks\"";
+
+/// The goal is not reached while something is to be answered first.
+const ANSWERED_FIRST: &str = "AG (ls.End -> !ls.local_event.waiting)";
+/// A mission that is ended is left by the local supervisor.
+const LEFT: &str = "AG (gs.Security | gs.Safe -> ls.Idle)";
+
+/// All of them. F1, F3, F4 and F5 are findings of the reconstruction.
 pub(crate) fn defects() -> Vec<Defect> {
-    use Change::{Also, Blind, Keeps, Moved, Says, Silent, Without};
-    let of = |name, change, breaks| Defect { name, change, breaks };
-    let timely = |name, change| Defect { name, change, breaks: Requirement::InTime };
-    let planted = |name, it| timely(name, Change::Planted(it));
-    let late = |mode: FailureMode, s: u64| Planted::Late(mode, Millis(s * 1_000));
-    let always = |text: &str| Requirement::Always(text.to_owned());
-    let answered = "AG (gom.hard_flag.waiting & ls.Following -> AF<=200ms !ls.Following)";
+    use Change::{Local, Text};
+    let of = |name, change, breaks: &str| Defect { name, change, breaks: breaks.parse().unwrap() };
     vec![
         // A drive declared finished while a report waits leaves the place of the mission wrong.
         of(
             "F1 completion race",
-            Without("ls.l3", &["local_pending", "global_pending"]),
-            required("LS5"),
+            Local(|net| without(net, "Following_done", &["local_pending", "global_pending"])),
+            ANSWERED_FIRST,
         ),
-        // An adapter event that comes when path following has ended starts it anew.
-        of("F2 stale adapter event", Also("pf.m1", "Off", "Optimal"), required("LS1")),
-        // Without sonars there is no localisation either, so one flag alone hides nothing.
-        timely("F3 masked loss of sonars", Without("pf.a1", &["sonar", "mcl"])),
-        timely("F3 masked loss of localisation", Without("pf.a1", &["mcl"])),
+        of(
+            "F3 a noisy sonar hides lost ones",
+            Text(&[("id = \"SON4\"", "[\"sonar", "[\"sonar silent\", \"sonar")]),
+            "in-time",
+        ),
         of(
             "F4 operator out of reach",
-            Says("cs.ambiguous4", "local_event"),
-            always("AG (ls.local_event.waiting -> gom.wifi)"),
+            Text(&[
+                ("[operator]", "[\"LAN\"]", "[\"NAV\"]"),
+                (
+                    "name = \"TP\"",
+                    "\"NAV\", \"LAN\"]\noptional = [",
+                    "\"NAV\"]\noptional = [\"LAN\", ",
+                ),
+            ]),
+            "AG (ls.local_event.waiting -> !gom.lost_WiFi_card)",
         ),
-        timely("F5 driven without a camera", Blind),
-        of("F6 abort against start", Keeps("ls.start_drive"), required("GS2")),
-        timely("start with a lost avoidance", Without("pf.a1", &["smz"])),
         of(
-            "other avoidance not asked for",
-            Without("pf.a17", &["avoidance"]),
-            unused("avoidance", "to.Full | pf.Reactive"),
+            "F5 driven without a camera",
+            Text(&[("name = \"TO.DEG\"", ", \"CAM\"]", "]")]),
+            "AG (gom.lost_camera & ls.Teleoperation -> AF<=300ms !ls.Teleoperation)",
         ),
-        timely("lost sonars change nothing", Moved("pf.a24", "Reactive", "Reactive")),
+        of("abort while he is asked is not heard", Local(|net| never(net, "abort_Waits")), LEFT),
         of(
-            "lost localisation is recorded",
-            Silent("cs.mcl3"),
-            unused("mcl", "pf.Optimal | pf.Reduced | pf.Reactive"),
+            "asks and does not stop",
+            Local(|net| unsaid(net, "ask_Following", "stop_Following")),
+            "AG (permit.Granted <-> ls.Following | ls.Teleoperation)",
         ),
-        timely("a lost sonar is recorded", Silent("cs.sonar1")),
-        timely("a lost sonar is not told", Silent("gom.sonar")),
-        // A crash is hard by its row too, so that the operator is asked a round later anyway.
-        of("a crashed avoidance is not told", Silent("gom.smz"), Requirement::Conforms),
-        of("a crashed avoidance is recorded", Silent("cs.smz1"), Requirement::Conforms),
-        of("a hard failure is recorded", Silent("cs.hard3"), always(answered)),
-        timely("what is vital is not told", Silent("gom.vital")),
-        timely("what is vital is recorded", Silent("cs.vital")),
-        timely("a lost camera is recorded", Silent("cs.camera1")),
-        planted("SON1 is seen by nobody", Planted::Unseen(Son1)),
-        planted("ODO1 is seen by nobody", Planted::Unseen(Odo1)),
-        planted("ODO1 is seen 20 s late", late(Odo1, 20)),
-        planted("SON2 is seen 20 s late", late(Son2, 20)),
-        planted("COM1 hides ODO1", Planted::UnseenWhile(Com1, Odo1)),
-        planted("LOC2 hides MOT1", Planted::UnseenWhile(Loc2, Mot1)),
+        of(
+            "follows whatever is lost",
+            Local(|net| always(net, "Planning_done")),
+            "AG (ls.Following -> !following.Off)",
+        ),
+        of(
+            "plans whatever is lost",
+            Local(|net| always(net, "Teleprogramming_done")),
+            "AG (gom.lost_PPL & ls.Planning -> AF<=300ms !ls.Planning)",
+        ),
+        of(
+            "SON1 is seen by nobody",
+            Text(&[("id = \"SON1\"", "flags = [\"sonar far\"]", NOBODY)]),
+            "in-time",
+        ),
+        of(
+            "ODO1 is seen by nobody",
+            Text(&[("id = \"ODO1\"", "flags = [\"wheel residual\", \"pose distance\"]", NOBODY)]),
+            "in-time",
+        ),
         of(
             "BAT2 is seen by nobody",
-            Change::Planted(Planted::Unseen(Bat2)),
-            Requirement::NotFailed,
-        ),
-        planted("MOT4 is seen by nobody", Planted::Unseen(Mot4)),
-        of(
-            "plans with lost modules",
-            Change::Planted(Planted::PlansWithLost),
-            Requirement::PlansWithWhatWorks,
+            Text(&[
+                ("id = \"BAT2\"", "flags = [\"battery critical\"]", NOBODY),
+                ("id = \"BAT1\"", "low\"]", "low\"]\nsometimes = [\"battery critical\"]"),
+            ]),
+            "not-failed",
         ),
         of(
-            "creeps when it is to stand",
-            Change::Planted(Planted::Creeps),
-            Requirement::StandsWhenSafe,
+            "MOT4 is seen by nobody",
+            Text(&[
+                ("id = \"MOT4\"", "flags = [\"runaway\"]", NOBODY),
+                ("id = \"MOT1\"", "stall\"]", "stall\"]\nsometimes = [\"runaway\"]"),
+            ]),
+            "in-time",
         ),
-        BLIND,
+        of(
+            "ODO1 is seen 20 s late",
+            Text(&[("id = \"ODO1\"", "latency_ms = 1500", "latency_ms = 21500")]),
+            "exposed<=20000",
+        ),
+        of(
+            "SON2 is seen 20 s late",
+            Text(&[("id = \"SON2\"", "latency_ms = 1000", "latency_ms = 21000")]),
+            "exposed<=20000",
+        ),
+        of(
+            "a lost link hides ODO1",
+            Text(&[
+                ("[observer.O-EFF]", "flags", "needs = [\"LAN\"]\nflags"),
+                ("[observer.O-LOC]", "flags", "needs = [\"LAN\"]\nflags"),
+            ]),
+            "in-time",
+        ),
+        of(
+            "a lost link hides sensor data",
+            Text(&[("[observer.O-SEN]", "flags", "needs = [\"LAN\"]\nflags")]),
+            "seen-in-time",
+        ),
+        of(
+            "MOT3 hides MOT1",
+            Text(&[
+                ("id = \"MOT1\"", "flags = [\"wheel disobeys\", \"stall\"]", "flags = [\"stall\"]"),
+                ("id = \"MOT3\"", "flags = [\"stall\"]", "flags = [\"wheel disobeys\", \"stall\"]"),
+            ]),
+            "in-time",
+        ),
+        of("LOC2 hides LOC1", Text(&[("id = \"LOC1\"", "helped = true\n", "")]), "in-time"),
+        of("MOT3 is not let go", Text(&[("id = \"MOT3\"", "helped = true\n", "")]), "not-failed"),
+        of(
+            "a lost link is called fatal",
+            Text(&[("id = \"COM1\"", "autonomous = \"weak\"", "autonomous = \"fatal\"")]),
+            "completed",
+        ),
+        of(
+            "a person in the way is called hard",
+            Text(&[("id = \"HUM1\"", "autonomous = \"weak\"", "autonomous = \"hard\"")]),
+            "requests<=0",
+        ),
+        blind(),
     ]
 }
 
-/// The supervisors as they were: a lost sonar blinded the observer of the camera too, so that the
+/// The observers as they were: a lost sonar blinded the observer of the camera too, so that the
 /// operator drove on without an image.
-pub(crate) const BLIND: Defect = Defect {
-    name: "a lost sonar hides a dead camera",
-    change: Change::Planted(Planted::UnseenWhile(Son2, Cam1)),
-    breaks: Requirement::InTime,
-};
+pub(crate) fn blind() -> Defect {
+    Defect {
+        name: "a lost sonar hides a dead camera",
+        change: Change::Text(&[(
+            "[observer.O-SEN]",
+            ", \"no frame\", \"old frame\", \"value outside\"]",
+            ", \"value outside\"]\n[observer.O-CAM]\nneeds = [\"sonar_arrays\"]\nflags = [\"no \
+             frame\", \"old frame\"]",
+        )]),
+        breaks: Requirement::InTime,
+    }
+}

@@ -91,12 +91,13 @@ fn policies_over_the_same_20_000_plans() {
     let delivery = of(&delivery, &supervised, true);
     let mut text = String::new();
     rows(&mut text, "patrol", &all);
-    rows(&mut text, "delivery", &delivery);
     text += "| over the same plans | only it | only other | points | p | time, s | energy, J \
              | asked |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n";
     differences(&mut text, &all);
     differences(&mut text, &of_rule);
-    differences(&mut text, &delivery);
+    // The delivery's configurations are chosen by its supervisors: there both complete the same.
+    let success = &delivery[1].against.as_ref().unwrap().success;
+    assert_eq!((success.only_first, success.only_second), (0, 0));
     println!("{text}");
     cotama_golden::compare("tests/golden/policies.md", &text);
 }

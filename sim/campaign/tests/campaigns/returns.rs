@@ -149,7 +149,7 @@ fn failures(
     let settings = Settings {
         runs,
         requirements: requirements.into_iter().collect(),
-        ..Settings::new(mission.supervisor().is_some())
+        ..Settings::new(mission.robot().is_some())
     };
     let campaign = Campaign::new(subject.named("random.toml"), settings).unwrap();
     let mut tally = Tally::default();
@@ -256,9 +256,9 @@ fn failures_under_supervisors_come_back_whatever_they_break() {
         "energy<=2200000",
         "requests<=0",
         "exposed<=400",
-        "never ls.l5",
+        "never ls.ask_Following",
         "AG !gs.Security",
-        "AG (ls.HandOver -> AF<=20s !ls.HandOver)",
+        "AG (ls.Waits -> AF<=5s !ls.Waits)",
     ];
     let tight = delivery.text.replace("duration_ms = 900000", "duration_ms = 300000");
     let steps = 100_000;

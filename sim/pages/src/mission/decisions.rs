@@ -5,7 +5,7 @@ use super::events::capital;
 use super::view::View;
 use crate::format::{metres, moment, seconds};
 use cotama_core::text::markup;
-use cotama_sim::supervised::story::{Chain, Point, Rung, What};
+use cotama_sim::story::{Chain, Point, Rung, What};
 use cotama_sim::trace::supervised::Fired;
 use std::fmt::Write;
 
@@ -138,10 +138,9 @@ fn ladder(html: &mut String, points: &[Point<'_>]) {
 /// A step of the ladder in few words.
 fn step(point: &Point<'_>, rung: Rung) -> String {
     let runs = point.configured.and_then(|it| it.configuration.clone()).unwrap_or_default();
-    let event = point.chain().and_then(|it| it.decision).and_then(|it| it.event.as_deref());
+    let set = point.chain().and_then(|it| it.set).and_then(|it| it.sets.clone());
     match (rung, &point.what) {
-        (Rung::Parameter, _) if event == Some("adapt_rt") => "fewer particles".into(),
-        (Rung::Parameter, _) => "slower".into(),
+        (Rung::Parameter, _) => set.unwrap_or_else(|| "a setting".to_owned()),
         (Rung::Set, _) => runs,
         (Rung::Activity, What::Operator(_)) => format!("operator: {runs}"),
         (Rung::Activity, _) => "operator asked".into(),

@@ -5,19 +5,15 @@ use super::strip::demands;
 use super::view::View;
 use crate::format::{metres, speed};
 use cotama_core::text::markup;
-use cotama_models::cotama::{Configuration, FailureMode, Module};
 use cotama_models::missions::Mission;
+use cotama_models::robots::RobotFile;
 use std::collections::HashSet;
 use std::fmt::Write;
 
-/// The supervisors' nets, as reactions name them, and the halves of the adapter.
-const NETS: [(&str, &str); 8] = [
-    ("PF", "path following: the robot drives itself"),
-    ("TO", "teleoperation: the operator drives"),
+/// The supervisors' nets that every robot has, as reactions name them.
+const NETS: [(&str, &str); 4] = [
     ("gs", "the global supervisor: which objective"),
     ("ls", "the local supervisor: how the drive goes on, with or without the operator"),
-    ("pf", "the adapter of path following: which modules"),
-    ("to", "the adapter of teleoperation"),
     ("gom", "the global observation module: what failed"),
     ("cs", "the contextual supervisor: who must react"),
 ];
@@ -87,17 +83,25 @@ fn own(mission: &Mission, view: &View<'_>, add: &mut Add<'_>) {
 
 /// Adds the terms of supervisors: failures, configurations, modules, nets and their transitions.
 fn supervised(view: &View<'_>, add: &mut Add<'_>) {
-    for mode in FailureMode::ALL {
-        let text = mode.description();
-        add(mode.name(), &|| format!("a failure: {}, {}", text.component, text.failure));
+    let robot = view.mission.as_ref().ok().and_then(|it| it.robot()).map(RobotFile::robot);
+    for it in robot.iter().flat_map(|it| &it.failures) {
+        add(&it.id, &|| match it.item.as_str() {
+            "" => format!("a failure: {}", it.mode),
+            item => format!("a failure: {item}, {}", it.mode),
+        });
     }
-    for &it in Configuration::ALL {
-        let top = it.facts().speed.0;
-        let most = if top == 0 { String::new() } else { format!(" At most {}.", speed(top)) };
-        add(it.name(), &|| format!("a set of modules: {}{most}", it.doc().trim()));
+    for it in robot.iter().flat_map(|it| &it.configurations) {
+        let of = robot.and_then(|robot| robot.sub_objectives.get(it.sub_objective));
+        let of = of.map_or("", |it| it.name.as_str());
+        let top = it.speed.0;
+        let most = if top == 0 { String::new() } else { format!(", at most {}", speed(top)) };
+        add(&it.name, &|| format!("a set of modules for {of}{most}"));
     }
-    for &it in Module::ALL {
-        add(it.name(), &|| format!("a module: {}", it.doc().trim()));
+    for it in robot.iter().flat_map(|it| &it.modules) {
+        add(&it.name, &|| match it.title.as_str() {
+            "" => "a module".to_owned(),
+            title => format!("a module: {title}"),
+        });
     }
     for (name, meaning) in NETS {
         add(name, &|| meaning.into());

@@ -5,7 +5,7 @@ use super::events::{capital, power_error, short, summary};
 use super::view::View;
 use crate::format::{metres, milli, moment, speed};
 use cotama_core::text::markup;
-use cotama_sim::supervised::story::Point;
+use cotama_sim::story::Point;
 use cotama_sim::trace::{Event, Margins, Plan, PlanRow};
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -74,10 +74,7 @@ const fn began(event: &Event) -> u64 {
 
 /// Which failure a plan of a supervised run goes back to.
 fn failed(view: &View<'_>, plan: &Plan) -> String {
-    let led = |it: &&Point<'_>| {
-        let diagnosis = it.chain().filter(|it| it.planned_again).and_then(|it| it.diagnosis);
-        diagnosis.is_some_and(|it| it.t_us == plan.t_us)
-    };
+    let led = |it: &&Point<'_>| it.chain().is_some_and(|it| it.planned_us == Some(plan.t_us));
     let point = view.points.iter().find(led);
     point.map_or_else(
         || format!("Cause: {}.", plan.cause),

@@ -6,7 +6,7 @@ use crate::format::{count, grouped, joules, metres, moment, percent, seconds};
 use cotama_core::text::markup;
 use cotama_models::cotama::Class;
 use cotama_sim::run::Outcome;
-use cotama_sim::supervised::story::Chain;
+use cotama_sim::story::Chain;
 use cotama_sim::trace::{End, Event, Occurrence, Plan};
 use std::fmt::Write;
 
@@ -134,19 +134,11 @@ fn planned(view: &View<'_>) -> String {
 /// Returns the decision of a supervisor on a failure, in words that a failure can follow.
 fn decision(chain: &Chain<'_>) -> Option<&'static str> {
     let it = chain.decision?;
-    Some(match (it.decision, it.event.as_deref()) {
-        (Class::Adapter, Some("adapt_rt")) => "the adapter took fewer particles",
-        (Class::Adapter, Some("adapt_mcl")) => "the adapter took odometry",
-        (Class::Adapter, Some("adapt_bump")) => "the adapter slowed the robot down",
-        (Class::Adapter, Some("adapt_smz")) => "the adapter took the other avoidance",
-        (Class::Adapter, Some("adapt_avoidance")) => "the adapter went on without avoidance",
-        (Class::Adapter, Some("adapt_minor" | "adapt_minor_teleoperation")) => {
-            "the adapter changed a setting"
-        }
-        (Class::Adapter, _) => "the adapter went on without sonars",
-        (Class::Local, _) => "the operator was asked",
-        (Class::Global, _) => "the mission was ended safely",
-        (Class::Record, _) => "nothing changed",
+    Some(match it.decision {
+        Class::Adapter => "the adapter took another set of modules",
+        Class::Local => "the operator was asked",
+        Class::Global => "the mission was ended safely",
+        Class::Record => "nothing changed",
     })
 }
 
@@ -155,10 +147,11 @@ fn reacted(view: &View<'_>) -> String {
     let mut groups: Vec<(&str, Vec<String>)> = Vec::new();
     for chain in view.points.iter().filter_map(|it| it.chain()) {
         let decided = decision(chain);
-        let again = chain.planned_again.then_some("the rest was planned again");
+        let set = chain.set.map(|_| "a setting was changed");
+        let again = chain.planned_us.map(|_| "the rest was planned again");
         let asked = chain.asked_us.map(|_| "the operator was asked");
         let asked = asked.filter(|&asked| decided != Some(asked));
-        for words in [decided, again, asked].into_iter().flatten() {
+        for words in [decided, set, again, asked].into_iter().flatten() {
             let mode = chain.failure.mode.clone();
             match groups.iter_mut().find(|it| it.0 == words) {
                 Some(group) => group.1.push(mode),

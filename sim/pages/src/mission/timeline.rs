@@ -1,37 +1,16 @@
 //! The timeline of a mission's supervisors, one lane each, with speed, position and margin below.
 
 use super::MAX_POINTS;
+use super::lanes::{COLOURS, Lane, Lanes as Nets};
 use super::series::{Point, Scale, below_zero, line, steps, thinned};
 use super::strip::{BAR, Bar, Lanes, Rows};
 use super::view::View;
 use crate::axis::{Layout, NARROW, WIDE, draw_tick_labels, tick_label, ticks};
 use crate::format::{clock, metres, moment, seconds};
 use crate::svg::{Svg, fixed};
-use cotama_core::net::Role;
-use cotama_models::cotama::{Mode, delivery};
+use cotama_models::cotama::Mode;
 use cotama_sim::trace::{Record, Sample};
 use std::fmt::Write;
-
-/// The nets that have a lane, with its name.
-const NETS: [(&str, &str); 5] = [
-    ("gs", "Global"),
-    ("ls", "Local"),
-    ("pf", "Adapter PF"),
-    ("to", "Adapter TO"),
-    ("permit", "Permit"),
-];
-
-/// The legend of the colours, in the order of the legend: a class, and words.
-const COLOURS: [(&str, &str); 8] = [
-    ("f0", "the robot alone, as planned"),
-    ("f1", "the same with fewer particles"),
-    ("f2", "degraded: less is used than planned"),
-    ("f3", "the robot stands, the operator is asked or edits"),
-    ("f4", "the operator drives"),
-    ("f5", "motion is granted"),
-    ("f6", "planning, standing at an objective"),
-    ("gone", "stopped for good"),
-];
 
 /// The timeline and its key: the whole mission and, under it, its part from the first point to the
 /// last with all lanes, if that is short.
@@ -177,8 +156,9 @@ fn panel(all: &mut Svg, view: &View<'_>, time: Time, top: f64, whole: bool, ever
     let first = top + 14.0 + pins.len() as f64 * 18.0;
     let mut rows = Rows::new(layout, time, first + 6.0);
     lane(&mut rows, "Failures", &failures(view, time));
+    let nets = Nets::of(view.mission.as_ref().ok());
     let configured = |mode: bool| {
-        stretches(view, time, move |it| match it {
+        stretches(view, time, &nets, move |it| match it {
             Record::Configuration(it) if mode => {
                 Some(if it.mode == Mode::Rest { "" } else { it.mode.name() })
             }
@@ -188,8 +168,8 @@ fn panel(all: &mut Svg, view: &View<'_>, time: Time, top: f64, whole: bool, ever
     };
     lane(&mut rows, "Mode", &configured(true));
     lane(&mut rows, "Runs", &configured(false));
-    for (net, name) in NETS.into_iter().filter(|_| every) {
-        lane(&mut rows, name, &places(view, time, net));
+    for it in nets.all.iter().filter(|_| every) {
+        lane(&mut rows, &it.label, &places(view, time, &nets, it));
     }
     rows.y += 4.0;
     let signed = |value: u64| i64::try_from(value).unwrap_or(i64::MAX);
@@ -277,6 +257,7 @@ fn failures(view: &View<'_>, time: Time) -> Vec<Bar> {
 fn stretches<'t>(
     view: &View<'t>,
     time: Time,
+    nets: &Nets,
     what: impl Fn(&'t Record) -> Option<&'t str>,
 ) -> Vec<Bar> {
     let mut bars: Vec<Bar> = Vec::new();
@@ -295,7 +276,7 @@ fn stretches<'t>(
             moment(to_us),
             seconds((to_us - from_us) / 1000)
         );
-        let class = format!("tint {}", tint(name));
+        let class = format!("tint {}", nets.tint(name));
         bars.push(Bar { from, to, class, label: name.into(), title });
     };
     let (mut name, mut since) = ("", 0);
@@ -309,33 +290,13 @@ fn stretches<'t>(
 }
 
 /// The places of a net, but for that where it rests: the one it starts in.
-fn places(view: &View<'_>, time: Time, net: &str) -> Vec<Bar> {
-    let component = delivery::SYSTEM.components.iter().find(|it| it.name == net);
-    let rest = component
-        .and_then(|it| it.net.places.iter().find(|it| it.initial > 0 && it.role == Role::State));
-    let rest = rest.map_or("", |it| it.name);
-    stretches(view, time, |record| match record {
-        Record::Fired(it) if it.net == net => {
-            Some(if it.place == rest { "" } else { it.place.as_str() })
+fn places(view: &View<'_>, time: Time, nets: &Nets, lane: &Lane) -> Vec<Bar> {
+    stretches(view, time, nets, |record| match record {
+        Record::Fired(it) if it.net == lane.net => {
+            Some(if it.place == lane.rest { "" } else { it.place.as_str() })
         }
         _ => None,
     })
-}
-
-/// The colour of a place, a mode or a configuration, as [`COLOURS`] says it. The label says the
-/// same.
-fn tint(name: &str) -> &'static str {
-    match name {
-        "autonomous" | "Following" | "PF.OPT" | "Optimal" | "DriveA" | "DriveB" => "f0",
-        "PF.OPTR" | "Reduced" => "f1",
-        // `Degraded` of both adapters: they have lanes of their own.
-        "PF.ODO" | "PF.DEG" | "PF.DVZ" | "TO.DEG" | "Odometric" | "Reactive" | "Degraded" => "f2",
-        "hand-over" | "HandOver" | "teleprogrammed" | "Teleprogrammed" | "TP" => "f3",
-        "teleoperated" | "Teleoperated" | "TO.FULL" | "Full" => "f4",
-        "Granted" => "f5",
-        "SEC" | "Security" | "Safe" | "Destroyed" => "gone",
-        _ => "f6",
-    }
 }
 
 /// A curve with its own scale; values hold until the next one, or change steadily.

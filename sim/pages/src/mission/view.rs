@@ -3,7 +3,7 @@
 
 use cotama_models::missions::faults::{Faults, PowerError};
 use cotama_models::missions::{Mission, Zone};
-use cotama_sim::supervised::story::{Point, points};
+use cotama_sim::story::{Point, points};
 use cotama_sim::trace::{Abort, End, Event, Plan, Record, Request, RunFaults, Sample, Trace};
 use std::collections::HashMap;
 

@@ -9,7 +9,7 @@ use cotama_core::units::Millis;
 use cotama_models::missions::embedded;
 use cotama_sim::fleet::scenarios::{FleetOptions, ServiceOptions, fleet, service};
 use cotama_sim::options::{FaultChoice, Options};
-use cotama_sim::supervised::story::Rung;
+use cotama_sim::story::Rung;
 use cotama_sim::trace::Record;
 use std::path::Path;
 
@@ -167,28 +167,21 @@ fn a_change_of_speed_alone_is_a_change() {
     assert!(said.contains("A8 | M5 L2 at 0.41 m/s→ | M5 L2 at 0.5 m/s"), "{said}");
 }
 
-/// A collision under way: the adapter slows the robot down, and nothing else.
+/// A person in the way: a setting slows the robot down, and nothing else.
 #[test]
-fn a_collision_is_told_as_a_robot_that_is_slowed_down() {
-    let trace = delivery_under(failures(&["COL1"]));
-    let points = cotama_sim::supervised::story::points(&trace.records);
+fn a_person_in_the_way_is_told_as_a_setting() {
+    let trace = delivery_under(failures(&["HUM1"]));
+    let points = cotama_sim::story::points(&trace.records);
     let point = points.iter().find(|it| it.chain().is_some()).unwrap();
-    let decision = point.chain().unwrap().decision.unwrap();
-    assert_eq!(decision.event.as_deref(), Some("adapt_bump"));
+    assert!(point.chain().unwrap().decision.is_none());
     assert_eq!(point.rungs(), [Rung::Parameter]);
-    let decided = point.decided().unwrap();
-    assert!(decided.contains("so the adapter slows down ("), "{decided}");
     let said = said(&html(&trace), false);
     for line in [
-        "1 failure on the way: at 5.0 m, COL1: SMZ, collision with a fixed obstacle.",
-        "The adapter slowed the robot down after COL1.",
-        "COL1: SMZ, collision with a fixed obstacle, after 0.2 s, a11: the same modules run on",
-        "| bumper 0.0 s | COL1 | collision | medium → adapter | record | adapt_bump 0.1 s, \
-         collision5 | pf a11 0.2 s | –",
-        "Parameter |  | slower",
-        "| 19.4 s | 5.0 m | Found: bumper; COL1",
+        "1 failure on the way: at 5.0 m, HUM1: people, person steps in the way.",
+        "A setting was changed after HUM1.",
+        "Parameter |  | 50 % of the speed",
     ] {
-        assert!(said.lines().any(|it| it == line), "{line}");
+        assert!(said.lines().any(|it| it == line), "{line}\n{said}");
     }
 }
 
