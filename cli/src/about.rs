@@ -18,8 +18,8 @@ use crate::catalogue::{self, Kind};
 use crate::exit::{Exit, Failure};
 use crate::file_schemas;
 use crate::mission;
-use crate::model;
 use crate::output::Screen;
+use crate::robot;
 use crate::team::Team;
 use clap::CommandFactory;
 use clap::builder::PossibleValuesParser;
@@ -35,7 +35,7 @@ use serde_json::Value;
 
 /// `cotama table`: the tables of a mission, or the supervisors of a robot, as Rust source.
 pub(crate) fn table(args: &MissionArg) -> Result<Exit, Failure> {
-    if let Some(robot) = model::robot(&args.mission)? {
+    if let Some(robot) = robot::robot(&args.mission)? {
         let system = supervisors::system(&robot);
         Screen::raw(supervisors::to_rust(&system).as_bytes())?;
         return Ok(Exit::Success);

@@ -101,7 +101,7 @@ Examples:
     /// The run is simulated and deterministic: the same mission, faults and seed give the same run.
     /// Margins (limit less used less planned) are watched; when one falls below zero, or planned
     /// hardware fails, the rest of the mission is planned anew: plan 0 is the first one, plan 1
-    /// that of the first replan. A mission with `[supervision]` is driven by supervisors (tables
+    /// that of the first replan. A mission that names its robot is driven by supervisors (tables
     /// that react to events), who find, judge and answer each failure, and ask the operator. The
     /// scenarios `fleet` and `service`, and files of teams, are such robots that bid for tasks.
     #[command(after_long_help = "\

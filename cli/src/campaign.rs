@@ -19,7 +19,6 @@ use cotama_campaign::statistics::{Decision, Interval};
 use cotama_campaign::strategy::BLOCK;
 use cotama_campaign::subject::{Policy, Subject};
 use cotama_models::missions::Mission;
-use cotama_models::robots::RobotFile;
 use cotama_pages::campaign::{self as page, Shown};
 use cotama_sim::options::STEPS;
 use cotama_sim::trace::RobotText;
@@ -68,8 +67,7 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
     }
     let policy = args.policy_for(&mission)?;
     let of = asked::Of::mission(&mission);
-    let robot = mission.robot().map(RobotFile::robot);
-    let settings = asked::settings(args, of, mission.source(), robot)?;
+    let settings = asked::settings(args, of, mission.source(), Some(&mission))?;
     let campaign = ready(&mission, policy, settings)?;
     let shard = args.shard.unwrap_or(Shard::ALL);
     let texts = (mission.source(), mission.text());

@@ -79,18 +79,26 @@ pub(crate) fn entries() -> Vec<Entry> {
         kind: Kind::Net(net, known),
     });
     let systems = SYSTEMS.iter().map(|it| Entry {
-        name: it.name,
+        name: system_name(it),
         description: it.doc,
         kind: Kind::System(it),
     });
     shipped.chain(supervisors).chain(systems).collect()
 }
 
+/// The decisional level of the boards: `delivery` itself is the mission, whose supervisors its
+/// robot's file makes.
+const BY_HAND: &str = "delivery_by_hand";
+
+fn system_name(system: &System<'static>) -> &'static str {
+    if system.name == delivery::SYSTEM.name { BY_HAND } else { system.name }
+}
+
 /// Returns the requirements of the system of this name.
 pub(crate) fn requirements(name: &str) -> Vec<&'static Requirement> {
     let kept = || REQUIREMENTS.iter().filter(|it| !REPLACED.contains(&it.id));
     match name {
-        _ if name == delivery::SYSTEM.name => REQUIREMENTS.iter().collect(),
+        _ if name == BY_HAND => REQUIREMENTS.iter().collect(),
         _ if name == recovering::SYSTEM.name => kept().chain(RECOVERY_REQUIREMENTS).collect(),
         _ => Vec::new(),
     }
@@ -109,7 +117,7 @@ mod tests {
     fn a_sentence_ends_before_the_next_one() {
         let sentence = |name| entry(name).unwrap().sentence();
         assert_eq!(
-            sentence("delivery"),
+            sentence("delivery_by_hand"),
             "COTAMA's decisional level as it drives the robot, with everything that may fail and \
              the operator."
         );

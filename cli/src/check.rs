@@ -19,6 +19,7 @@ use crate::budget::Budget;
 use crate::catalogue::{self, Entry, Kind};
 use crate::exit::{Exit, Failure};
 use crate::last_word::LastWord;
+use crate::model;
 use crate::output::{self, Screen};
 use crate::progress::Progress;
 use crate::render::style::NAME;
@@ -59,7 +60,11 @@ fn once(args: &CheckArgs, screen: &Screen, last_word: &LastWord) -> Result<Exit,
     if let Some(too_large) = limit::of(args)? {
         return limit::told(args, &too_large, screen);
     }
-    let subject = match Subject::load(&args.model, args.untimed, args.semantics) {
+    let found = match &args.mission {
+        Some(mission) => model::of_robot(&args.model, mission)?,
+        None => model::find(&args.model)?,
+    };
+    let subject = match Subject::of(&args.model, found, args.untimed, args.semantics) {
         Ok(subject) => subject,
         Err(Unmade::Failure(failure)) => return Err(failure),
         Err(Unmade::TooLarge(it)) => return limit::told(args, &(*it).into(), screen),

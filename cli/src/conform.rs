@@ -6,13 +6,15 @@ use crate::exit::{Exit, Failure};
 use crate::file_errors::FileErrors;
 use crate::input;
 use crate::kind::{self, Kind};
-use crate::model;
+use crate::model::{self, Found};
 use crate::names::{near, quoted};
 use crate::output::Screen;
 use crate::render;
+use crate::robot;
 use crate::simulate::not_played;
 use cotama_core::units::Millis;
-use cotama_sim::supervised::PERIOD;
+use cotama_models::missions::Mission;
+use cotama_models::robots::RobotFile;
 use cotama_sim::trace::{Record, Trace};
 use cotama_verification::conform::{
     Departure, Line, Options, Recording, RecordingError, Refused, Verdict, What, conform as check,
@@ -31,8 +33,9 @@ pub(crate) fn conform(args: &ConformArgs, screen: &Screen) -> Result<Exit, Failu
     }
     let wanted = [Kind::Recording, Kind::Trace];
     let text = kind::text(&args.trace, "a recorded run", input::TRACE_BYTES, &wanted)?;
-    let recording = recorded(input::name(&args.trace), &text)?;
-    let checked = model::with_system(&args.model.model, |it, labels| {
+    let (recording, mission) = recorded(input::name(&args.trace), &text)?;
+    let found = played(&args.model.model, mission.as_ref())?;
+    let checked = model::with_found(&args.model.model, found, |it, labels| {
         let (tolerance, most_states) = (Millis(args.tolerance), args.max_states as usize);
         let (invisible, shared_names) = (&*labels.invisible, &*labels.shared);
         // A robot without an operator has no net that stands for him.
@@ -56,27 +59,43 @@ pub(crate) fn conform(args: &ConformArgs, screen: &Screen) -> Result<Exit, Failu
     })
 }
 
-/// A recording, or the trace of a supervised mission.
-fn recorded(name: &str, text: &str) -> Result<Recording, Failure> {
+/// Returns the model of this name; of the robot of a recorded mission, its supervisors there.
+fn played(name: &str, mission: Option<&Mission>) -> Result<Found, Failure> {
+    let robot = mission.and_then(|it| it.robot()).map(RobotFile::robot);
+    if let (Some(mission), Some(robot)) = (mission, robot)
+        && robot::robot(name)?.as_ref() == Some(robot)
+        && let Some(found) = Found::of_mission(mission)
+    {
+        return Ok(found);
+    }
+    model::find(name)
+}
+
+/// A recording, or the trace of a mission under supervisors, with the mission.
+fn recorded(name: &str, text: &str) -> Result<(Recording, Option<Mission>), Failure> {
     let first = text.lines().find(|it| !it.trim().is_empty()).unwrap_or_default();
     if !first.contains("\"cotama-trace/1\"") {
-        return Recording::read(name, text).map_err(|it| at_place(it, text));
+        let read = Recording::read(name, text).map_err(|it| at_place(it, text));
+        return read.map(|it| (it, None));
     }
     let trace = Trace::parse(name, text).map_err(|error| {
         let (line, column) = (error.line, error.column);
         FileErrors::at(name, text.to_owned(), line, column, error.message)
     })?;
-    of_mission(&trace).ok_or_else(|| {
+    let mission = trace.header.mission().ok();
+    let body = mission.as_ref().and_then(|it| it.robot()?.robot().body.as_ref());
+    let recording = body.and_then(|it| of_mission(&trace, it.period)).ok_or_else(|| {
         Failure::new(format!(
             "{name}: no supervisors drove this mission, so no model can be held to it"
         ))
         .help("`cotama run delivery --trace delivery.jsonl` records one that they drive")
-    })
+    })?;
+    Ok((recording, mission))
 }
 
 /// Returns the recording of a mission's supervisors, if there are any: a round took place in each
 /// period, and then they accepted one event. Within one period the trace lists first the firings.
-fn of_mission(trace: &Trace) -> Option<Recording> {
+fn of_mission(trace: &Trace, period: Millis) -> Option<Recording> {
     let said = |(number, record): (usize, &Record)| {
         let what = match record {
             Record::Told(it) => What::Event { name: it.event.clone(), ignored: Some(false) },
@@ -90,19 +109,11 @@ fn of_mission(trace: &Trace) -> Option<Recording> {
     lines.sort_by_key(|it| (it.at, matches!(it.what, What::Fired(_))));
     (!lines.is_empty()).then(|| Recording {
         start: Millis(0),
-        round_every: Some(period(trace)),
+        round_every: Some(period),
         silent: SILENT.map(str::to_owned).to_vec(),
         lines,
         ..Recording::default()
     })
-}
-
-/// Returns the period of the rounds of a trace's supervisors: that of its robot's file, if there is
-/// one.
-fn period(trace: &Trace) -> Millis {
-    let mission = trace.header.mission().ok();
-    let body = mission.as_ref().and_then(|it| it.robot()?.robot().body.as_ref());
-    body.map_or(PERIOD, |it| it.period)
 }
 
 fn at_place(error: RecordingError, text: &str) -> Failure {

@@ -10,24 +10,52 @@ mod robot;
 pub(crate) use robot::robot as robot_file;
 
 use cotama_core::hardware::{MAX_KINDS, MAX_UNITS};
-use cotama_models::cotama::{Configuration, FailureMode, Module};
-use cotama_models::missions::faults::{self, Act, Adapts, Answer, Moment, OUTCOMES};
+use cotama_models::missions::faults::{self, Adapts, OUTCOMES};
 use cotama_models::missions::known::{
     ALLOCATORS, AT_LEAST_ZERO, COUNTS, ENERGIES, EVENTS, INCIDENTS, NAME_LENGTHS, NEEDED_UNITS,
     OBJECTIVES, PER_KM, PERIODS, POSITIVE, POWER_ERRORS, QUALITIES, RANDOM_EVENTS, ROUNDINGS,
-    SEARCHES, SPEEDS, UNITS, configurations,
+    SEARCHES, SPEEDS, UNITS,
 };
-use cotama_models::missions::{self, AXES, Supervision};
+use cotama_models::missions::{self, AXES};
 use parts::{
-    absent, both, choice, choices, flag, id, integer, named, only, says, table, tables, text, when,
-    with, word,
+    absent, both, choice, choices, id, integer, named, only, says, table, tables, text, when, with,
+    word,
 };
 use serde_json::{Value, json};
 
 const DRAFT: &str = "http://json-schema.org/draft-07/schema#";
 
-/// The schema of a mission file.
+/// The schema of a mission file: that of a robot with a file, or of a plain mission.
 pub(crate) fn mission() -> Value {
+    let file = json!({
+        "type": "object",
+        "if": says("format", &[missions::FORMAT_2]),
+        "then": mission_of_robot(),
+        "else": plain_mission(),
+    });
+    with(with(file, "$schema", DRAFT.into()), "title", "A mission of cotama".into())
+}
+
+/// A mission whose robot has a file: body, hardware and options of moving are the robot's.
+fn mission_of_robot() -> Value {
+    let needs = [
+        ("format", word(missions::FORMAT_2, "how this file is written")),
+        ("name", name()),
+        ("robot", text("the robot: its name, or the path of its file")),
+        ("path_length_mm", integer(&POSITIVE, "how long the path is, in mm")),
+        ("limits", limits()),
+        ("objective", tables(&objective(true), 1, "what is to be done where, in this order")),
+    ];
+    let can = [
+        ("tio", tables(&tio(false), 0, "ways to do a task for which the robot stands")),
+        ("zone", tables(&zone(), 0, "what holds in a part of the path")),
+        ("plan", plan()),
+        ("run", run()),
+    ];
+    table(&needs, &can, "The path, the robot, what is to be done, and the limits.")
+}
+
+fn plain_mission() -> Value {
     let needs = [
         ("format", word(missions::FORMAT, "how this file is written")),
         ("name", name()),
@@ -36,24 +64,21 @@ pub(crate) fn mission() -> Value {
         ("robot", robot()),
         ("motion_power", motion_power()),
         ("hardware", hardware()),
-        ("tio", tables(&tio(), 1, "task implementation options: ways to do a task")),
-        ("objective", tables(&objective(), 1, "what is to be done where, in this order")),
+        ("tio", tables(&tio(true), 1, "task implementation options: ways to do a task")),
+        ("objective", tables(&objective(false), 1, "what is to be done where, in this order")),
     ];
     let can = [
         ("zone", tables(&zone(), 0, "what holds in a part of the path")),
         ("fixed", fixed()),
         ("rounding", rounding()),
         ("plan", plan()),
-        ("supervision", supervision()),
         ("run", run()),
     ];
     let file = table(&needs, &can, "The path, the robot, its ways to do things, and the limits.");
-    let file = with(with(file, "$schema", DRAFT.into()), "title", "A mission of cotama".into());
-    with(
-        file,
-        "allOf",
-        json!([supervised(), needs_fixed("TUR", "turn"), needs_fixed("DET", "detect")]),
-    )
+    let event = both(&json!({ "properties": { "kind": { "enum": EVENTS } } }), &absent(&["mode"]));
+    let plain =
+        json!({ "properties": { "run": { "properties": { "event": { "items": event } } } } });
+    with(file, "allOf", json!([plain, needs_fixed("TUR", "turn"), needs_fixed("DET", "detect")]))
 }
 
 /// The schema of a file of faults.
@@ -203,22 +228,14 @@ fn task_name(meaning: &str) -> Value {
     with(text(meaning), "pattern", "^[A-Z][A-Z0-9_]{1,15}$".into())
 }
 
-fn tio() -> Value {
-    let configurations: Vec<_> = configurations().map(Configuration::name).collect();
+fn tio(is_plain: bool) -> Value {
     let units = integer(&NEEDED_UNITS, "units of this hardware");
-    let needs = [
-        ("id", id("its name")),
-        ("task", task_name(TASKS)),
-        ("needs", named(&units, "how many units of which hardware")),
-    ];
+    let hardware = ("needs", named(&units, "how many units of which hardware"));
+    let needs = [("id", id("its name")), ("task", task_name(TASKS))];
     let can = [
         ("speed_max_mm_s", integer(&SPEEDS, "not faster this way, in mm/s")),
         ("quality_per_dm", integer(&QUALITIES, "how good it is, for each 100 mm of way")),
         ("quality", integer(&QUALITIES, "how good it is where the robot stands")),
-        (
-            "configuration",
-            choice(&configurations, "needed under supervision where it moves: which modules run"),
-        ),
         (
             "duration_ms",
             integer(
@@ -235,11 +252,12 @@ fn tio() -> Value {
         ),
     ];
     let own = ["duration_ms", "power_mw"];
-    let moves = says("task", &["MOV"]);
     let rules = json!([
         { "if": says("task", &KNOWN), "then": absent(&own), "else": { "required": own } },
-        { "if": moves, "then": true, "else": absent(&["configuration"]) },
     ]);
+    let (first, last) = if is_plain { (Some(hardware), None) } else { (None, Some(hardware)) };
+    let needs: Vec<_> = needs.into_iter().chain(first).collect();
+    let can: Vec<_> = can.into_iter().chain(last).collect();
     with(table(&needs, &can, "a way to do a task"), "allOf", rules)
 }
 
@@ -259,7 +277,7 @@ fn zone() -> Value {
     with(table(&needs, &can, "a part of the path"), "dependencies", rule)
 }
 
-fn objective() -> Value {
+fn objective(under_supervisors: bool) -> Value {
     let meaning = "what is done at the same time, as `[\"MOV\", \"LOC\"]`";
     let tasks = json!({
         "type": "array", "items": task_name(TASKS), "minItems": 1, "description": meaning,
@@ -269,37 +287,13 @@ fn objective() -> Value {
         ("id", id("its name")),
         ("x_start_mm", integer(&AT_LEAST_ZERO, "where it begins, in mm")),
         ("x_end_mm", integer(&AT_LEAST_ZERO, ends)),
-        ("tasks", with(tasks, "uniqueItems", true.into())),
     ];
-    let meaning = "needed under supervision: `drive`, `receive`, `deliver`, `wait`; or, with a \
-                   robot that has a file, a task of your own in small letters";
-    let does = with(text(meaning), "pattern", "^[a-z][a-z0-9_]{1,15}$".into());
-    table(&needs, &[("does", does)], "a part of what is to be done")
-}
-
-fn supervision() -> Value {
-    let decides = choice(&Supervision::NAMES, "`\"cotama\"`: the supervisors of COTAMA");
-    let recovery = flag("modules that return are used again");
-    table(&[("decides", decides)], &[("recovery", recovery)], "who decides when something fails")
-}
-
-/// Under supervision each objective says what it does and each option that moves which modules run;
-/// without, nothing does, and nothing happens that only supervisors can answer.
-fn supervised() -> Value {
-    let moves = when(&says("task", &["MOV"]), &json!({ "required": ["configuration"] }));
-    let event = both(&json!({ "properties": { "kind": { "enum": EVENTS } } }), &absent(&["mode"]));
-    json!({
-        "if": { "required": ["supervision"] },
-        "then": { "properties": {
-            "objective": { "items": { "required": ["does"] } },
-            "tio": { "items": moves },
-        } },
-        "else": { "properties": {
-            "objective": { "items": absent(&["does"]) },
-            "tio": { "items": absent(&["configuration"]) },
-            "run": { "properties": { "event": { "items": event } } },
-        } },
-    })
+    let tasks = ("tasks", with(tasks, "uniqueItems", true.into()));
+    let meaning = "`drive`, `receive`, `deliver`, `wait`, or a task of your own in small letters";
+    let does = ("does", with(text(meaning), "pattern", "^[a-z][a-z0-9_]{1,15}$".into()));
+    let (last, can) = if under_supervisors { (does, vec![tasks]) } else { (tasks, Vec::new()) };
+    let needs: Vec<_> = needs.into_iter().chain([last]).collect();
+    table(&needs, &can, "a part of what is to be done")
 }
 
 fn run() -> Value {
@@ -318,36 +312,28 @@ fn happenings() -> [(&'static str, Value); 3] {
 }
 
 /// Returns the fields of an event beside its place and its kind.
-fn details() -> [(&'static str, Value); 17] {
-    let modes: Vec<_> = FailureMode::ALL.iter().map(|it| it.name()).collect();
-    let modules: Vec<_> = Module::ALL.iter().map(|it| it.name()).collect();
-    let states = Moment::STATES.map(|it| it.0);
-    let acts: Vec<_> = Act::all().map(|it| it.to_string()).collect();
-    let acts: Vec<_> = acts.iter().map(String::as_str).collect();
-    let act = "this transition of the supervisors fires for the first time";
+fn details() -> [(&'static str, Value); 14] {
     let (place, time) = ("where it ends, in mm", "when it ends, in ms after the start");
-    let state = "the local supervisor comes to this place for the first time";
+    let state = "the robot comes to this sub-objective, or to `Waits`, for the first time";
+    let answers = json!({
+        "type": "array", "items": { "type": "string" }, "minItems": 1,
+        "description": "what the operator does when asked: his sub-objectives, `done`, `give_up`",
+    });
     [
         ("t_ms", integer(&AT_LEAST_ZERO, "in place of `x_mm`: when it fails, in ms")),
-        ("during", choice(&states, &format!("in place of `x_mm`: {state}"))),
-        ("fired", choice(&acts, &format!("in place of `x_mm`: {act}"))),
-        ("after_ms", integer(&AT_LEAST_ZERO, "beside `during` or `fired`: so long after, in ms")),
+        ("during", text(&format!("in place of `x_mm`: {state}"))),
+        ("after_ms", integer(&AT_LEAST_ZERO, "beside `during`: so long after, in ms")),
         ("until_x_mm", integer(&AT_LEAST_ZERO, place)),
         ("until_t_ms", integer(&AT_LEAST_ZERO, time)),
-        ("until_during", choice(&states, &format!("it ends when {state}"))),
-        ("until_fired", choice(&acts, &format!("it ends when {act}"))),
-        ("until_after_ms", integer(&AT_LEAST_ZERO, "so long after `until_during`, `until_fired`")),
-        ("module", choice(&modules, "of a failure of one module, whichever it is: which one")),
+        ("until_during", text(&format!("it ends when {state}"))),
+        ("until_after_ms", integer(&AT_LEAST_ZERO, "so long after `until_during`")),
         ("delay_ms", integer(&AT_LEAST_ZERO, "how long the robot or the operator waits, in ms")),
         ("extra_mm", integer(&POSITIVE, "so much more path to drive, in mm")),
         ("hardware", text("what fails or works again")),
         ("units_lost", integer(&UNITS, "how many units fail")),
         ("units_back", integer(&UNITS, "how many units work again")),
-        ("mode", choice(&modes, "under supervision: a failure mode of `cotama fmeca`")),
-        (
-            "answers",
-            choices(&Answer::NAMES, "under supervision: what the operator does when asked"),
-        ),
+        ("mode", text("a failure of the robot's file, by its id")),
+        ("answers", answers),
     ]
 }
 
@@ -373,23 +359,19 @@ fn event() -> Value {
     with(table(&needs, &can, "something that happens once"), "allOf", rules)
 }
 
-/// A failure names its mode, and can name its module, and when it begins and ends.
+/// A failure names its mode, and when it begins and ends.
 fn fails(keys: &[&str]) -> Value {
     let own = |key: &&str| {
-        ["mode", "module", "t_ms", "during", "fired", "after_ms"].contains(key)
-            || key.starts_with("until_")
+        ["mode", "t_ms", "during", "after_ms"].contains(key) || key.starts_with("until_")
     };
     let others: Vec<_> = keys.iter().copied().filter(|it| !own(it)).collect();
     let once = json!({ "oneOf": [
         { "required": ["x_mm"] }, { "required": ["t_ms"] }, { "required": ["during"] },
-        { "required": ["fired"] },
     ] });
     let then = both(&json!({ "required": ["mode"] }), &both(&absent(&others), &once));
-    let one_of =
-        |first, second| json!({ "anyOf": [{ "required": [first] }, { "required": [second] }] });
     let since = json!({ "dependencies": {
-        "after_ms": one_of("during", "fired"),
-        "until_after_ms": one_of("until_during", "until_fired"),
+        "after_ms": ["during"],
+        "until_after_ms": ["until_during"],
     } });
     when(&says("kind", &["failure"]), &both(&then, &since))
 }

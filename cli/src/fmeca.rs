@@ -13,11 +13,11 @@ use crate::args::{FmecaArgs, FmecaFormat};
 use crate::exit::{Exit, Failure};
 use crate::input;
 use crate::kind::{self, Kind};
-use crate::model;
 use crate::names::{near, quoted};
 use crate::output::{self, Screen};
 use crate::render;
 use crate::render::style::NAME;
+use crate::robot;
 use clap::ValueEnum;
 use cotama_models::fmeca::Analysis;
 use cotama_models::robots::{self, Robot};
@@ -71,7 +71,7 @@ fn read(path: &str) -> Result<Analysis, Failure> {
     };
     let text = kind::text(path, "an FMECA", input::FMECA_BYTES, &[Kind::Fmeca, Kind::Robot])?;
     if kind::is_of(&text, Kind::Robot) {
-        return of_robot(path, model::robot_file(path, &text)?.robot());
+        return of_robot(path, robot::robot_file(path, &text)?.robot());
     }
     Ok(parse(path, &text)?)
 }

@@ -253,7 +253,8 @@ pub(crate) fn model_for_mission(name: &str) -> Option<Failure> {
 /// Why the name of a mission is none of a model, if it is a mission's.
 pub(crate) fn mission_for_model(name: &str) -> Option<Failure> {
     embedded::mission(name)?;
-    let failure = Failure::new(format!("`{name}` is a mission, and a model is needed here"));
+    let message = format!("`{name}` is a plain mission, and a model is needed here");
+    let failure = Failure::new(message);
     Some(failure.help(format!("try `cotama plan {name}`, or `cotama models` for the models")))
 }
 

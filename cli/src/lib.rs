@@ -40,6 +40,7 @@ mod progress;
 pub mod readers;
 mod render;
 mod replay;
+mod robot;
 mod run;
 mod show;
 mod simulate;

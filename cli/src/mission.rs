@@ -4,8 +4,8 @@ use crate::args::{AllocatorName, Lost, Objective, Planning, STEPS};
 use crate::exit::Failure;
 use crate::input;
 use crate::kind::{self, Kind};
-use crate::model;
 use crate::names::{is_name, near};
+use crate::robot;
 use cotama_campaign::subject::Subject;
 use cotama_core::hardware::Equipment;
 use cotama_models::missions::{Definition, Mission, PlannedFor, embedded};
@@ -19,6 +19,13 @@ const STANDARD_INPUT: &str = "standard input";
 /// The mission of this name, or of the file at this path.
 pub(crate) fn load(name: &str) -> Result<Mission, Failure> {
     loaded(name, None)
+}
+
+/// The mission of this name under the supervisors of a robot: its own, or the given one of a plain
+/// mission.
+pub(crate) fn under(name: &str, robot: &str) -> Result<Mission, Failure> {
+    let mission = loaded(name, None)?;
+    if mission.is_supervised() { Ok(mission) } else { loaded(name, Some(robot)) }
 }
 
 /// The same; `supervised` is the robot whose supervisors are to decide.
@@ -77,7 +84,7 @@ pub(crate) fn robot(name: &str, folder: Option<&Path>) -> Result<RobotFile, Fail
         return Err(Failure::new(message).help(help));
     }
     let text = kind::text(&path, "a robot's file", input::MISSION_BYTES, &[Kind::Robot])?;
-    model::robot_file(&path, &text)
+    robot::robot_file(&path, &text)
 }
 
 /// A subject of a campaign whose failures name this source, if it can be read again.

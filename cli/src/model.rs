@@ -5,15 +5,19 @@ use crate::exit::Failure;
 use crate::file_errors::FileErrors;
 use crate::input;
 use crate::kind::{self, Kind as FileKind};
-use crate::names::{is_name, near, quoted};
+use crate::mission;
+use crate::names::{is_name, near};
+use crate::robot;
 use crate::team::{self, Chosen, Protocol, Team};
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::net::{Known, TransitionId};
 use cotama_core::system::owned::OwnedSystem;
 use cotama_core::system::{Component, System};
+use cotama_models::missions::{Mission, embedded};
 use cotama_models::nets;
 use cotama_models::robots::requirements::Requirement as RobotRequirement;
-use cotama_models::robots::{self, Robot, RobotFile};
+use cotama_models::robots::supervisors::Step;
+use cotama_models::robots::{self, Robot};
 use cotama_models::team::protocol::Requirement;
 use cotama_models::team::scenario::Scenario;
 use cotama_verification::formats::json::{self, Wrong};
@@ -21,7 +25,6 @@ use cotama_verification::pnml::{self, Imported, Limits, PnmlErrors};
 use cotama_verification::pt::Extras;
 use cotama_verification::tina;
 use cotama_verification::tpn::{self, Interval, NotANet, TimeNet};
-use std::fs;
 use std::path::Path;
 
 /// A net and what is known of it.
@@ -107,9 +110,21 @@ pub(crate) struct Owned {
 
 impl From<&Robot> for Found {
     fn from(robot: &Robot) -> Self {
-        let system = robots::supervisors::system(robot);
-        let requirements = robots::requirements::of(robot);
+        Self::under(robot, &[])
+    }
+}
+
+impl Found {
+    /// The supervisors of a robot, in a mission of these objectives.
+    fn under(robot: &Robot, steps: &[Step]) -> Self {
+        let system = robots::supervisors::of_mission(robot, steps);
+        let requirements = robots::requirements::of_mission(robot, steps);
         Self::Owned(Box::new(Owned { system, requirements }))
+    }
+
+    /// The supervisors of a mission's robot, if it has one.
+    pub(crate) fn of_mission(mission: &Mission) -> Option<Self> {
+        mission.robot().map(|it| Self::under(it.robot(), &mission.steps()))
     }
 }
 
@@ -131,7 +146,16 @@ pub(crate) fn with_system<T>(
     name: &str,
     then: impl FnOnce(&System<'_>, &Labels) -> T,
 ) -> Result<T, Failure> {
-    let (net, labels) = match find(name)? {
+    with_found(name, find(name)?, then)
+}
+
+/// The same of a model that was found.
+pub(crate) fn with_found<T>(
+    name: &str,
+    found: Found,
+    then: impl FnOnce(&System<'_>, &Labels) -> T,
+) -> Result<T, Failure> {
+    let (net, labels) = match found {
         Found::System(system) => return Ok(then(system, &Labels::default())),
         Found::Owned(it) => return Ok(it.system.with(|it| then(it, &Labels::default()))),
         Found::Net(mut loaded) => {
@@ -149,8 +173,11 @@ pub(crate) fn find(name: &str) -> Result<Found, Failure> {
     if let Some(team) = Team::named(name) {
         return protocol(name, &Chosen::Known(team).scenario());
     }
-    if let Some(robot) = robot(name)? {
+    if let Some(robot) = robot::robot(name)? {
         return Ok(Found::from(&robot));
+    }
+    if let Some(found) = of_mission(name)? {
+        return Ok(found);
     }
     let (family, number) =
         name.split_once(':').map_or((name, None), |(family, it)| (family, Some(it)));
@@ -173,6 +200,38 @@ pub(crate) fn find(name: &str) -> Result<Found, Failure> {
             Err(kind::mission_for_model(name).unwrap_or_else(|| unknown(name, family)))
         }
         None => file(name),
+    }
+}
+
+/// The supervisors of the mission of this name or file, if it is one that names its robot.
+fn of_mission(name: &str) -> Result<Option<Found>, Failure> {
+    let text = match embedded::mission(name) {
+        Some(it) => it.text.to_owned(),
+        None if kind::is(name, FileKind::Mission) => {
+            kind::text(name, "a mission file", input::MISSION_BYTES, &[FileKind::Mission])?
+        }
+        None => return Ok(None),
+    };
+    if Mission::robot_of(&text).is_none() {
+        return Ok(None);
+    }
+    Ok(Found::of_mission(&mission::load(name)?))
+}
+
+/// The supervisors of a robot in a mission: one that names it, or a plain one.
+pub(crate) fn of_robot(name: &str, of: &str) -> Result<Found, Failure> {
+    let Some(robot) = robot::robot(name)? else {
+        return Err(Failure::new(format!("--mission: `{name}` is no robot"))
+            .help("give the name of a robot, or the path of its file, before it"));
+    };
+    let mission = mission::under(of, name)?;
+    match mission.robot() {
+        Some(it) if *it.robot() == robot => Ok(Found::under(&robot, &mission.steps())),
+        other => {
+            let other = other.map_or("none", |it| it.robot().name.as_str());
+            let message = format!("--mission: the robot of `{of}` is {other}, not `{name}`");
+            Err(Failure::new(message).help(format!("try `cotama check {of}`")))
+        }
     }
 }
 
@@ -201,7 +260,7 @@ fn file(path: &str) -> Result<Found, Failure> {
     }
     if kind::is_of(&bytes, FileKind::Robot) {
         let text = input::utf8(path, WHAT, bytes)?;
-        return Ok(Found::from(robot_file(path, &text)?.robot()));
+        return Ok(Found::from(robot::robot_file(path, &text)?.robot()));
     }
     let end = Path::new(path).extension().map(|end| end.to_string_lossy().to_lowercase());
     let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes).trim_ascii_start();
@@ -218,33 +277,6 @@ fn file(path: &str) -> Result<Found, Failure> {
         _ if is_markup(&bytes) => imported(path, &bytes),
         _ => Err(unlike(path, bytes)),
     }
-}
-
-/// The robot of a name, or of a file that begins as one.
-pub(crate) fn robot(name: &str) -> Result<Option<Robot>, Failure> {
-    if let Some(it) = robots::embedded(name) {
-        return Ok(Some(Robot::parse(it.name, it.text)?));
-    }
-    if !kind::is(name, FileKind::Robot) {
-        return Ok(None);
-    }
-    let text = kind::text(name, "a robot's file", input::MISSION_BYTES, &[FileKind::Robot])?;
-    Ok(Some(robot_file(name, &text)?.robot().clone()))
-}
-
-/// The robot of this text; nets that it names stand beside the file.
-pub(crate) fn robot_file(path: &str, text: &str) -> Result<RobotFile, Failure> {
-    let folder = Path::new(path).parent();
-    let own = &mut |name: &str| {
-        let net = folder.map_or_else(|| name.into(), |it| it.join(name));
-        let refused = |why: std::io::Error| format!("{}: {why}", quoted(name));
-        if fs::metadata(&net).map_err(refused)?.len() > json::MAX_BYTES as u64 {
-            return Err(format!("{} is too large for a net", quoted(name)));
-        }
-        let text = fs::read_to_string(&net).map_err(refused)?;
-        json::read(&text).map_err(|why| format!("{}: {why}", quoted(name)))
-    };
-    Ok(RobotFile::parse_with(input::name(path), text, own)?)
 }
 
 /// The protocol by which a team gives its tasks out.

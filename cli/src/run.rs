@@ -141,9 +141,7 @@ pub(crate) fn ended(run: &Run) -> Exit {
 pub(crate) fn refused(error: RecordError) -> Failure {
     match error {
         RecordError::Text(errors) => errors.into(),
-        RecordError::Setup(_) | RecordError::Unsupervised(_) | RecordError::Undriven(_) => {
-            Failure::new(error.to_string())
-        }
+        RecordError::Setup(_) | RecordError::Undriven(_) => Failure::new(error.to_string()),
         RecordError::Infeasible { .. } => Failure::new(error.to_string())
             .help("`cotama plan MISSION` says what weighs most, and what would help"),
     }
@@ -244,11 +242,7 @@ fn passed_over(faults: &FaultChoice, mission: &Mission) -> usize {
         FaultChoice::Script => &mission.run.faults,
         FaultChoice::Given { faults, .. } => faults,
     };
-    match mission.is_supervised() {
-        false => faults.incidents.len(),
-        true if mission.robot().is_some() => Script::passed_over(faults, mission),
-        true => faults.power_errors.len() + faults.events.len() + faults.random.len(),
-    }
+    if mission.is_supervised() { Script::passed_over(faults, mission) } else { 0 }
 }
 
 /// Writes the report and the trace where they are wanted, and notes it in the answer. `stored` is

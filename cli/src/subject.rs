@@ -78,7 +78,17 @@ impl Subject {
         untimed: bool,
         semantics: Option<Semantics>,
     ) -> Result<Self, Unmade> {
-        let loaded = Self::found(name, untimed, semantics.unwrap_or(Semantics::Rounds))?;
+        Self::of(name, model::find(name)?, untimed, semantics)
+    }
+
+    /// The same of a model that was found.
+    pub(crate) fn of(
+        name: &str,
+        found: Found,
+        untimed: bool,
+        semantics: Option<Semantics>,
+    ) -> Result<Self, Unmade> {
+        let loaded = Self::found(name, found, untimed, semantics.unwrap_or(Semantics::Rounds))?;
         if semantics == Some(Semantics::Rounds) && loaded.semantics.is_none() {
             return Err(Failure::new(format!(
                 "`{name}` is one net: rounds are those of several that work together"
@@ -89,8 +99,13 @@ impl Subject {
         Ok(loaded)
     }
 
-    fn found(name: &str, untimed: bool, semantics: Semantics) -> Result<Self, Unmade> {
-        let loaded = match model::find(name)? {
+    fn found(
+        name: &str,
+        found: Found,
+        untimed: bool,
+        semantics: Semantics,
+    ) -> Result<Self, Unmade> {
+        let loaded = match found {
             Found::System(system) => return Self::of_system(name, system, semantics),
             Found::Owned(it) => {
                 return match it.system.with(|system| Self::of_system(name, system, semantics)) {

@@ -228,7 +228,7 @@ fn a_system_can_be_checked_in_every_interleaving() {
 fn the_requirements_of_a_system_are_asked_by_their_numbers() {
     let folder = Folder::new("check_requirements_few");
     let few = ["--engine", "explicit", "--max-states", "1000", "--json"];
-    let answer = check(&folder, "delivery", &[], &few).json(3);
+    let answer = check(&folder, "delivery_by_hand", &[], &few).json(3);
     let rows = answer["results"].as_array().unwrap();
     assert_eq!((&rows[0]["id"], &rows[0]["name"]), (&json!("GS1"), &json!("GS1")));
     assert_eq!(rows[0]["sentence"], "The mission is in exactly one place.");
@@ -242,7 +242,7 @@ fn the_requirements_of_a_system_are_asked_by_their_numbers() {
 fn requirements_are_known_by_the_structure_where_markings_are_too_many() {
     let folder = Folder::new("check_requirements");
     let few = ["--max-states", "2000", "--json", "--certificate", "kept.json"];
-    let answer = check(&folder, "delivery", &[], &few).json(3);
+    let answer = check(&folder, "delivery_by_hand", &[], &few).json(3);
     assert_eq!(answer["semantics"], "rounds");
     let rows = answer["results"].as_array().unwrap();
     let first = &rows[0];

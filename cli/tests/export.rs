@@ -39,18 +39,19 @@ fn every_format_is_written_by_its_name_and_by_the_end_of_the_files_name() {
 fn the_drawings_of_the_delivery_are_those_of_the_program() {
     let folder = Folder::new("export_delivery");
     let page = include_str!("../../docs/delivery.md");
-    let models = [
-        "delivery",
-        "global",
-        "local",
-        "path_following",
-        "teleoperation",
-        "contextual",
-        "observation",
-        "permit",
+    let drawings = [
+        ("delivery", None),
+        ("global", Some("gs")),
+        ("local", Some("ls")),
+        ("following", Some("following")),
+        ("teleoperation", Some("teleoperation")),
+        ("observation", Some("gom")),
+        ("permit", Some("permit")),
     ];
-    for model in models {
-        let drawn = folder.cotama(&["export", model, "--format", "svg"]);
+    for (model, net) in drawings {
+        let part: Vec<_> = net.iter().flat_map(|it| ["--net", it]).collect();
+        let line = [&["export", "delivery", "--format", "svg"][..], &part].concat();
+        let drawn = folder.cotama(&line);
         assert_eq!(drawn.code, Some(0), "{drawn:?}");
         let path =
             Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../docs/delivery/{model}.svg"));

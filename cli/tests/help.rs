@@ -117,7 +117,7 @@ fn names_of_models_and_missions_are_completed() {
         folder.shell(&line).stdout
     };
     assert_eq!(complete("check watc"), "watchdog\n");
-    assert_eq!(complete("conform deli"), "delivery\n");
+    assert_eq!(complete("conform cross"), "crossing\n");
     assert_eq!(complete("run pat"), "patrol\n");
     assert_eq!(complete("check nope"), "\n");
 }

@@ -126,7 +126,7 @@ fn a_gripper_grasps_again_under_a_local_supervisor_of_its_own() {
     folder.write("local.json", "");
     assert_eq!(folder.cotama(&["replay", "f.jsonl", "--json"]).json(0)["identical"], true);
     folder.write("local.json", own.to_string());
-    assert_eq!(folder.cotama(&["conform", "own.toml", "f.jsonl", "--json"]).json(0)["events"], 4);
+    assert_eq!(folder.cotama(&["conform", "own.toml", "f.jsonl", "--json"]).json(0)["events"], 5);
     // Under the one that is made, the operator is asked.
     folder.write("fetch.toml", MISSION.replace("own.toml", "gripper.toml"));
     let run = folder.cotama(&["run", "fetch.toml", "--no-report", "--json"]).json(0);

@@ -162,7 +162,7 @@ fn a_loop_of_rounds_begins_behind_the_rounds_that_lead_to_it() {
     let result = &answer["results"][0];
     let fired: Vec<_> =
         result["trace"].as_array().unwrap().iter().map(|it| it["transition"].clone()).collect();
-    assert_eq!(fired, ["gs.g1", "ls.l1 + gom.settle ignored", "idle"]);
+    assert_eq!(fired, ["gs.g1", "ls.start1", "idle"]);
     assert_eq!(result["rest"], serde_json::json!({ "loop_from": 2 }));
 }
 

@@ -18,7 +18,7 @@ fn the_screens_of_simulations() {
         ("philosophers", &["philosophers:3", "left_first_1", "then_right_1", "left_first_2"]),
         ("watchdog", &["watchdog", "Release", "+100", "Release", "Done"]),
         ("nothing", &["contextual"]),
-        ("delivery", &["delivery", "gs.mission_received", "ls.path_ready", "faults.fail_hard"]),
+        ("delivery", &["delivery", "gs.mission_received", "ls.Planning_done", "faults.fail_BMP1"]),
         ("delivery_rounds", &["delivery", "--rounds", "gs.mission_received", "+100", "+100"]),
     ];
     for (name, arguments) in screens {

@@ -59,7 +59,7 @@ fn the_same_input_gives_the_same_answer_but_for_the_seconds() {
 fn the_shipped_supervisors_are_counted_in_rounds() {
     let figure = |name| cotama_golden::figure::<u64>(name).to_string();
     let folder = Folder::new("statespace_rounds");
-    let answer = folder.cotama(&["statespace", "delivery", "--json"]).json(0);
+    let answer = folder.cotama(&["statespace", "delivery_by_hand", "--json"]).json(0);
     assert_eq!(
         answer["rounds"],
         json!({ "states": figure("delivery.states"), "edges": figure("delivery.steps") })

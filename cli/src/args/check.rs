@@ -32,9 +32,9 @@ By name:
 
 A file has one property a line, as `name: AG !(a & b)` or without a name; lines that begin with # \
 are left out. A property file of the Model Checking Contest (XML) is read as well. Without \
-properties, the laws of the model are checked, or the requirements of the systems `delivery` and \
-`recovering`; where it has none, the usual three questions: is there no deadlock, is it 1-safe or \
-else how many tokens are there, can each transition fire.
+properties, the laws of the model are checked, or the requirements of a robot's supervisors; where \
+it has none, the usual three questions: is there no deadlock, is it 1-safe or else how many tokens \
+are there, can each transition fire.
 
 Engines: auto asks the cheapest first. structural looks at the net alone, stubborn and explicit \
 pass through markings.
@@ -72,6 +72,7 @@ Examples:
   $ cotama check kanban:2 --junit kanban.xml --sarif kanban.sarif
   $ cotama check service
   $ cotama check delivery
+  $ cotama check p3dx-patrol --mission patrol
   $ cotama check delivery --property 'AG (round & gs.Safe -> ls.Idle)'";
 
 pub(crate) const STATESPACE_EXAMPLES: &str = "\
@@ -125,8 +126,11 @@ fn seconds(text: &str) -> Result<Duration, String> {
 #[derive(Args, Debug)]
 pub(crate) struct CheckArgs {
     /// The name of a model that comes with the program, the path of a PNML, JSON or TINA (.net)
-    /// file, or `-`; or a team at work, for its protocol
+    /// file, or `-`; a robot or its mission, for its supervisors; a team at work, for its protocol
     pub(crate) model: String,
+    /// Of a robot: its supervisors in this mission, whose objectives its global supervisor has
+    #[arg(long, value_name = "MISSION")]
+    pub(crate) mission: Option<String>,
     /// A property, or the name of a usual question; any number of them
     #[arg(long, value_name = "TEXT")]
     pub(crate) property: Vec<String>,

@@ -13,7 +13,7 @@ Properties: AG p, EF p, AF p, EG p, A (p U q), E (p U q) of what is about one ma
 Examples:
   $ cotama estimate philosophers:8 --property 'EF deadlock' --steps 60 --runs 1000
   $ cotama estimate watchdog --untimed --property 'AG !Fault' --within 0.02   # exit code 1
-  $ cotama estimate delivery --property 'EF ls.End' --steps 500 --runs 200 --json";
+  $ cotama estimate delivery --property 'EF ls.Following' --steps 2000 --runs 200 --json";
 
 /// The most runs that are drawn.
 pub(crate) const MOST_RUNS: u64 = 1_000_000_000;

@@ -42,7 +42,7 @@ Examples:
   $ cotama simulate philosophers:3 left_first_1 then_right_1 end_1
   $ printf 'Call\\nEndOpen@2000\\n+5000\\n' | cotama simulate door
   $ printf '1\\nback\\nquit\\n' | cotama simulate door --interactive
-  $ cotama simulate delivery gs.mission_received ls.path_ready
+  $ cotama simulate delivery gs.mission_received ls.Planning_done
   $ cotama simulate door EndOpen --strict   # nothing opens: exit code 1";
 
 /// A model.

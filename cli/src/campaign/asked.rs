@@ -9,7 +9,7 @@ use cotama_campaign::space::Rates;
 use cotama_campaign::statistics::{Sprt, okamoto_runs};
 use cotama_campaign::strategy::StrategyName;
 use cotama_models::missions::Mission;
-use cotama_models::robots::{Robot, supervisors};
+use cotama_models::robots::supervisors;
 
 /// The kind of a campaign's subject.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +32,7 @@ pub(super) fn settings(
     args: &CampaignArgs,
     of: Of,
     source: &str,
-    robot: Option<&Robot>,
+    mission: Option<&Mission>,
 ) -> Result<Settings, Failure> {
     let supervised = of == Of::Supervised;
     let usual = Settings::new(supervised);
@@ -44,7 +44,7 @@ pub(super) fn settings(
         };
         return Err(Failure::of(source, message).help("--require not-failed, say"));
     }
-    if let Some(unknown) = args.require.iter().find(|it| !fires(it, robot)) {
+    if let Some(unknown) = args.require.iter().find(|it| !fires(it, mission)) {
         let message = format!("`{unknown}`: the supervisors have no such transition");
         return Err(Failure::new(message).help("cotama simulate delivery lists them"));
     }
@@ -136,20 +136,15 @@ pub(super) fn only_merged(args: &CampaignArgs) -> Result<(), Failure> {
 }
 
 /// Whether a transition that must not fire is one of the supervisors.
-fn fires(requirement: &Requirement, robot: Option<&Robot>) -> bool {
+fn fires(requirement: &Requirement, mission: Option<&Mission>) -> bool {
     let Requirement::Never(name) = requirement else { return true };
     let Some((net, transition)) = name.split_once('.') else { return false };
-    if let Some(robot) = robot {
-        let nets = supervisors::system(robot).nets;
+    if let Some((mission, robot)) = mission.and_then(|it| Some((it, it.robot()?))) {
+        let nets = supervisors::of_mission(robot.robot(), &mission.steps()).nets;
         let of = nets.iter().filter(|it| it.0 == net);
         return { of }.any(|it| it.1.transitions.iter().any(|it| it.name == transition));
     }
-    let components = cotama_models::cotama::recovering::SYSTEM.components;
-    // The global supervisor of a mission of one's own has transitions of its own.
-    net == "gs"
-        || components
-            .iter()
-            .any(|it| it.name == net && it.net.transitions.iter().any(|it| it.name == transition))
+    true
 }
 
 /// Whether the probability of failure is at most so much.

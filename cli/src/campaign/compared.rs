@@ -8,7 +8,6 @@ use crate::output::Screen;
 use cotama_campaign::compare::{Compared, compare};
 use cotama_campaign::subject::Policy;
 use cotama_models::missions::Mission;
-use cotama_models::robots::RobotFile;
 use cotama_sim::options::Planner;
 
 /// The same plans with each policy.
@@ -18,8 +17,7 @@ pub(super) fn compared(
     screen: &Screen,
 ) -> Result<Exit, Failure> {
     let of = asked::Of::mission(mission);
-    let settings =
-        asked::settings(args, of, mission.source(), mission.robot().map(RobotFile::robot))?;
+    let settings = asked::settings(args, of, mission.source(), Some(mission))?;
     let supervised = mission.is_supervised();
     let rule = ("rule", Policy { planner: Some(Planner::Panorama), ..Policy::default() });
     let own = Planner::of(mission);

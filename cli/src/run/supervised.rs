@@ -1,7 +1,7 @@
 //! The actions of the supervisors in a run, from its trace.
 
 use crate::answers::supervised::{Configured, Failure, Fired, Point, Supervised, Told};
-use cotama_sim::supervised::story::{self, Chain, What, points};
+use cotama_sim::story::{self, Chain, What, points};
 use cotama_sim::trace::{Record, Trace};
 
 /// The answer for a trace; none if its run was not supervised.
