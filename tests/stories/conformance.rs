@@ -1,4 +1,4 @@
-//! Every run of the supervised simulator is a run of the system that is checked.
+//! Every run of a mission under supervisors is a run of the system that is checked.
 //!
 //! What the supervisors were told is told again, a round each, to the net of rounds, by a token
 //! game of this file: the simulator's player takes no part. The net must be able to hear each event
@@ -7,18 +7,15 @@
 
 use cotama_core::net::TransitionId;
 use cotama_core::net::owned::OwnedNet;
-use cotama_core::system::System;
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::{
-    Configuration, FailureMode, Module, Told, delivery, faults, local, recovering,
-};
 use cotama_models::missions::Mission;
+use cotama_models::robots::Moment;
+use cotama_models::robots::supervisors::of_mission;
+use cotama_sim::robots::{Driven, Injection, Script};
 use cotama_sim::run::Outcome;
 use cotama_sim::streams::{Stream, Streams};
-use cotama_sim::supervised::{Injection, PERIOD, Run, Script, Supervised, When};
-use cotama_verification::check::{Model, Options, Verdict, check};
+use cotama_sim::trace::Record;
 use cotama_verification::flat::{Rounds, rounds};
-use cotama_verification::property;
 use std::collections::HashMap;
 use std::fmt::Write as _;
 
@@ -35,9 +32,47 @@ struct Game {
     turns: HashMap<Marking, (Marking, Vec<TransitionId>)>,
 }
 
+/// A run, as far as its supervisors show it.
+#[derive(Clone)]
+struct Shown {
+    /// Each event with the number of its round.
+    told: Vec<(u64, String)>,
+    fired: Vec<(u64, String)>,
+    rounds: u64,
+    outcome: Outcome,
+    /// Whether the computer was up to the end.
+    thinks: bool,
+    at_end: bool,
+    records: Vec<Record>,
+}
+
+impl Shown {
+    fn of(mission: &Mission, script: &Script) -> Self {
+        let period = mission.robot().unwrap().robot().body.as_ref().unwrap().period;
+        let mut records = Vec::new();
+        let driven = Driven::new(mission).unwrap();
+        let run = driven.run_recorded(script, Millis(1_000), &mut records).unwrap();
+        let (mut told, mut fired) = (Vec::new(), Vec::new());
+        for record in &records {
+            match record {
+                Record::Told(it) => told.push((it.round, it.event.clone())),
+                Record::Fired(it) => {
+                    let round = it.t_us / 1_000 / period.0 + 1;
+                    fired.push((round, format!("{}.{}", it.net, it.transition)));
+                }
+                _ => {}
+            }
+        }
+        let thinks = run.rounds * period.0 == run.time.0;
+        let at_end = run.x == mission.path_length;
+        Self { told, fired, rounds: run.rounds, outcome: run.outcome, thinks, at_end, records }
+    }
+}
+
 impl Game {
-    fn new(system: &System<'_>) -> Self {
-        let rounds = rounds(system).unwrap();
+    fn new(mission: &Mission) -> Self {
+        let robot = mission.robot().unwrap().robot();
+        let rounds = of_mission(robot, &mission.steps()).with(|it| rounds(it).unwrap());
         let net = rounds.net().unwrap();
         let mut from = vec![Vec::new(); net.places.len()];
         let is_phase =
@@ -111,7 +146,7 @@ impl Game {
     /// which round an event was told that cannot come there.
     fn replay(
         &mut self,
-        told: &[(u64, Told)],
+        told: &[(u64, String)],
         rounds: u64,
     ) -> Result<(Marking, Vec<(u64, String)>), u64> {
         let mut marking: Marking = self.net.places.iter().map(|it| it.initial).collect();
@@ -120,8 +155,8 @@ impl Game {
         for round in 1..=rounds {
             let (after, mut run) = self.turns(&marking);
             marking = after;
-            let event = told.next_if(|it| it.0 == round).map(|it| name(it.1));
-            run.push(self.outside(&mut marking, event.as_deref()).ok_or(round)?);
+            let event = told.next_if(|it| it.0 == round).map(|it| it.1.as_str());
+            run.push(self.outside(&mut marking, event).ok_or(round)?);
             let [happened] = &self.rounds.told(&run)[..] else { panic!("one round") };
             let (_, outside) = happened.outside.as_ref().unwrap();
             let steps = happened.turns.iter().chain([outside]).flat_map(|it| it.split(" + "));
@@ -138,90 +173,48 @@ impl Game {
         told.next().map_or(Ok((marking, fired)), |it| Err(it.0))
     }
 
-    /// The configuration that the places of a marking say.
-    fn configuration(&self, marking: &Marking) -> Option<Configuration> {
-        let configurations = [
-            ("ls.Planning", Configuration::Planning),
-            ("pf.Optimal", Configuration::FollowingOptimal),
-            ("pf.Reduced", Configuration::FollowingReduced),
-            ("pf.Reactive", Configuration::FollowingDvz),
-            ("pf.Odometric", Configuration::FollowingOdometric),
-            ("pf.Degraded", Configuration::FollowingDegraded),
-            ("ls.Teleprogrammed", Configuration::Teleprogramming),
-            ("to.Full", Configuration::TeleoperationFull),
-            ("to.Degraded", Configuration::TeleoperationDegraded),
-        ];
-        let mut marked = configurations.into_iter().filter(|it| self.tokens(marking, it.0) > 0);
-        let one = marked.next().map(|it| it.1);
-        assert_eq!(marked.next(), None, "two configurations run");
-        one
-    }
-
     /// Why a run is none of the checked system, if it is none.
-    fn refusal(&mut self, run: &Run) -> Option<String> {
+    fn refusal(&mut self, run: &Shown) -> Option<String> {
         let (marking, fired) = match self.replay(&run.told, run.rounds) {
             Ok(replayed) => replayed,
             Err(round) => return Some(format!("what was told in round {round} cannot come there")),
         };
-        let simulated = run.fired.iter().map(|it| {
-            let round = it.at.0 / PERIOD.0 + 1;
-            (round, format!("{}.{}", it.net, it.transition))
-        });
-        let simulated: Vec<_> = simulated.collect();
-        if let Some(at) =
-            (0..fired.len().max(simulated.len())).find(|&at| fired.get(at) != simulated.get(at))
-        {
-            return Some(format!("{:?} fired, not {:?}", simulated.get(at), fired.get(at)));
+        let most = fired.len().max(run.fired.len());
+        if let Some(at) = (0..most).find(|&at| fired.get(at) != run.fired.get(at)) {
+            return Some(format!("{:?} fired, not {:?}", run.fired.get(at), fired.get(at)));
         }
-        let last = run.configurations.last().and_then(|it| it.1);
-        if self.configuration(&marking) != last {
-            return Some(format!("the last configuration is {last:?}"));
-        }
-        // A laptop that hangs takes no rounds any more; then the micro-controller ends the mission.
-        let thinks = run.rounds * PERIOD.0 == run.time.0;
+        // A computer that hangs takes no rounds any more; then the micro-controller ends the
+        // mission.
         let ended = ["gs.Done", "gs.Safe"].map(|place| self.tokens(&marking, place) == 1);
         let expected = match run.outcome {
-            _ if !thinks => [false, false],
+            _ if !run.thinks => [false, false],
             Outcome::Completed => [true, false],
             Outcome::Safe => [false, true],
-            Outcome::Failed => [run.x == Millimetres(80_000), false], // done, beyond a limit
+            Outcome::Failed => [run.at_end && ended[0], false], // done, beyond a limit
         };
         (ended != expected).then(|| format!("it ends as {:?}", run.outcome))
     }
 }
 
-/// An event as the net of rounds calls it.
-fn name(told: Told) -> String {
-    let event = told.event();
-    // and those of delivery before
-    let component = &recovering::SYSTEM.components[usize::from(event.component)];
-    format!("{}.{}", component.name, component.net.events[event.id.0 as usize].name)
-}
-
-fn mission() -> Mission {
-    let embedded = cotama_models::missions::embedded::mission("delivery").unwrap();
+fn mission(name: &str) -> Mission {
+    let embedded = cotama_models::missions::embedded::mission(name).unwrap();
     Mission::parse(embedded.name, embedded.text).unwrap()
 }
 
 #[test]
 fn the_seven_points_are_a_run_of_the_checked_system() {
-    let mission = mission();
-    let script = Script::from(&mission.run.faults);
-    let run = Supervised::new(&mission).unwrap().run(&script).unwrap();
-    let mut game = Game::new(&delivery::SYSTEM);
+    let mission = mission("delivery");
+    let run = Shown::of(&mission, &Script::of(&mission.run.faults, &mission));
+    let mut game = Game::new(&mission);
     assert_eq!(game.refusal(&run), None);
     // And one that was told less, or later, is not.
     for altered in 0..run.told.len() {
         let (mut less, mut later) = (run.clone(), run.clone());
         less.told.remove(altered);
         later.told[altered].0 += 1;
-        let refused = [less, later].map(|it| game.refusal(&it).is_some());
-        // With the sonars localisation and avoidance are gone already, so nobody answers that they
-        // are lost.
-        let known = [faults::Event::lose_mcl, faults::Event::lose_avoidance].map(Told::Failure);
-        let is_known = known.contains(&run.told[altered].1);
-        assert_eq!(refused[0], !is_known, "{:?}", run.told[altered]);
-        assert!(refused[1] || is_known, "{:?}", run.told[altered]);
+        for it in [less, later] {
+            assert!(game.refusal(&it).is_some(), "{:?}", run.told[altered]);
+        }
     }
 }
 
@@ -229,25 +222,31 @@ const PAGE: &str = include_str!("../../docs/delivery.md");
 
 /// The rows of the story: what was told when, what fired until something else was told, and what
 /// ran then.
-fn rows(run: &Run) -> String {
-    let time = |round: u64| Millis((round - 1) * PERIOD.0);
+fn rows(run: &Shown) -> String {
+    let time = |round: u64| (round - 1) * 100;
+    let ran: Vec<(u64, Option<&str>)> = { run.records.iter() }
+        .filter_map(|it| match it {
+            Record::Configuration(it) => Some((it.t_us / 1_000, it.configuration.as_deref())),
+            _ => None,
+        })
+        .collect();
     let mut rows = String::new();
     // Events of rounds that follow each other belong together.
     for told in run.told.chunk_by(|a, b| a.0 + 1 == b.0) {
-        let (from, last) = (time(told[0].0), told[told.len() - 1].0);
-        let to = run.told.iter().find(|it| it.0 > last).map_or(run.time, |it| time(it.0));
-        let fired = run.fired.iter().filter(|it| (from..to).contains(&it.at));
-        let fired: Vec<_> = fired.map(|it| format!("{}.{}", it.net, it.transition)).collect();
-        let runs = run.configurations.iter().rfind(|it| it.0 < to).and_then(|it| it.1);
-        let told: Vec<_> = told.iter().map(|it| name(it.1)).collect();
+        let (from, last) = (told[0].0, told[told.len() - 1].0);
+        let to = run.told.iter().find(|it| it.0 > last).map_or(run.rounds + 1, |it| it.0);
+        let fired = run.fired.iter().filter(|it| (from..to).contains(&it.0));
+        let fired: Vec<_> = fired.map(|it| it.1.as_str()).collect();
+        let runs = ran.iter().rfind(|it| it.0 < time(to)).and_then(|it| it.1);
+        let told: Vec<_> = told.iter().map(|it| it.1.as_str()).collect();
         let _ = writeln!(
             rows,
             "| {}.{} | {} | {} | {} |",
-            from.0 / 1_000,
-            from.0 % 1_000 / 100,
+            time(from) / 1_000,
+            time(from) % 1_000 / 100,
             told.join(", "),
             fired.join(", "),
-            runs.map_or("none", Configuration::name)
+            runs.unwrap_or("none")
         );
     }
     rows
@@ -255,121 +254,60 @@ fn rows(run: &Run) -> String {
 
 #[test]
 fn the_page_of_the_delivery_tells_the_run() {
-    let mission = mission();
-    let run = Supervised::new(&mission).unwrap().run(&Script::from(&mission.run.faults)).unwrap();
-    let rows = rows(&run);
+    let mission = mission("delivery");
+    let rows = rows(&Shown::of(&mission, &Script::of(&mission.run.faults, &mission)));
     assert!(PAGE.contains(&rows), "docs/delivery.md must have these rows:\n{rows}");
 }
 
-#[test]
-fn the_claims_of_the_delivery_page_hold() {
-    let net = rounds(&delivery::SYSTEM).unwrap().net().unwrap();
-    let model = Model::from(&net.view().net());
-    let claims: Vec<_> = PAGE.split('`').filter(|it| it.starts_with("AG ")).collect();
-    assert_eq!(claims.len(), 6);
-    for claim in claims {
-        let formula = property::parse(claim, model.pt()).unwrap();
-        assert_eq!(
-            check(&model, &formula, &Options::default()).verdict,
-            Verdict::Holds(true),
-            "{claim}"
-        );
-    }
-}
-
-const PLACES: [local::State; 5] = [
-    local::State::Planning,
-    local::State::Following,
-    local::State::HandOver,
-    local::State::Teleoperated,
-    local::State::Teleprogrammed,
-];
-
-/// The runs of the simulator's matrix and more: each row of the FMECA in each place, those of any
-/// module for each module.
+/// Each row of each robot's file in each place of its drive.
 #[test]
 fn every_row_in_every_place_is_a_run_of_the_checked_system() {
-    let mission = mission();
-    let supervised = Supervised::new(&mission).unwrap();
-    let mut game = Game::new(&delivery::SYSTEM);
-    let mut runs = 0;
-    for &mode in FailureMode::ALL {
-        let parts = if mode.rule().one_module { Module::ALL } else { &[Module::Smz] };
-        for (&part, place) in parts.iter().flat_map(|part| PLACES.map(|place| (part, place))) {
-            let row = Injection { part, ..Injection::new(When::During(place, Millis(500)), mode) };
-            let asked = !matches!(place, local::State::Planning | local::State::Following);
-            let obstacle = Injection::new(When::Place(Millimetres(6_000)), FailureMode::Loc2);
-            let injections = if asked { vec![obstacle, row] } else { vec![row] };
-            let run = supervised.run(&Script { injections, answers: Vec::new() }).unwrap();
-            assert_eq!(game.refusal(&run), None, "{mode:?} of {part:?} during {place:?}");
-            runs += 1;
+    for (name, asks) in [("delivery", "LOC2"), ("shift", "WHL1")] {
+        let mission = mission(name);
+        let robot = mission.robot().unwrap().robot();
+        let mut game = Game::new(&mission);
+        let obstacle = robot.failure(asks).unwrap();
+        let obstacle = Injection::new(Moment::Place(Millimetres(6_000)), obstacle);
+        let parts = 0..robot.sub_objectives.len();
+        let places = parts.map(|it| Moment::During(it, Millis(500)));
+        for place in places.chain([Moment::Waiting(Millis(500))]) {
+            for failure in 0..robot.failures.len() {
+                let injections = vec![obstacle, Injection::new(place, failure)];
+                let run = Shown::of(&mission, &Script { injections, ..Script::default() });
+                let id = &robot.failures[failure].id;
+                assert_eq!(game.refusal(&run), None, "{id} during {place:?}");
+            }
         }
     }
-    assert_eq!(runs, 485);
 }
 
-fn one<T: Copy>(stream: &mut Stream, of: &[T]) -> T {
-    of[stream.below(of.len() as u64) as usize]
+fn moment(stream: &mut Stream, mission: &Mission) -> Moment {
+    let parts = mission.robot().unwrap().robot().sub_objectives.len() as u64;
+    match stream.below(4) {
+        0 => Moment::At(Millis(stream.below(400_000))),
+        1 => Moment::Place(Millimetres(stream.below(mission.path_length.0))),
+        2 => Moment::Waiting(Millis(stream.below(20_000))),
+        _ => Moment::During(stream.below(parts) as usize, Millis(stream.below(20_000))),
+    }
 }
 
+/// Three failures, some of which end, so that what was lost comes back.
 #[test]
 fn two_hundred_triples_of_failures_are_runs_of_the_checked_system() {
-    let mission = mission();
-    let supervised = Supervised::new(&mission).unwrap();
-    let mut game = Game::new(&delivery::SYSTEM);
+    let mission = mission("delivery");
+    let failures = mission.robot().unwrap().robot().failures.len() as u64;
+    let (mut game, mut returns) = (Game::new(&mission), 0);
     for seed in 0..200 {
         let mut stream = Streams::new(seed).stream("triple");
         let injections = (0..3).map(|_| {
-            let when = match stream.below(3) {
-                0 => When::At(Millis(stream.below(400_000))),
-                1 => When::Place(Millimetres(stream.below(80_000))),
-                _ => When::During(one(&mut stream, &PLACES), Millis(stream.below(20_000))),
-            };
-            let mode = one(&mut stream, FailureMode::ALL);
-            Injection { part: one(&mut stream, Module::ALL), ..Injection::new(when, mode) }
+            let (when, until) = (moment(&mut stream, &mission), moment(&mut stream, &mission));
+            let until = (stream.below(2) == 0).then_some(until);
+            Injection { when, failure: stream.below(failures) as usize, until }
         });
-        let script = Script { injections: injections.collect(), answers: Vec::new() };
-        let run = supervised.run(&script).unwrap();
+        let script = Script { injections: injections.collect(), ..Script::default() };
+        let run = Shown::of(&mission, &script);
         assert_eq!(game.refusal(&run), None, "{script:?}");
+        returns += run.told.iter().filter(|it| it.1.starts_with("faults.works_")).count();
     }
-}
-
-/// Missions in which modules return: one failure after another, each for a while.
-#[test]
-fn two_hundred_missions_with_returns_are_runs_of_the_checked_system() {
-    let embedded = cotama_models::missions::embedded::mission("delivery").unwrap();
-    let decides = "decides = \"cotama\"";
-    let text = embedded.text.replacen(decides, &format!("{decides}\nrecovery = true"), 1);
-    let mission = Mission::parse(embedded.name, &text).unwrap();
-    let supervised = Supervised::new(&mission).unwrap();
-    let mut game = Game::new(&recovering::SYSTEM);
-    let mut returns = 0;
-    for seed in 0..200 {
-        let mut stream = Streams::new(seed).stream("returns");
-        let mut place = |least: u64, more: u64| least + stream.below(more);
-        let lengths = [(); 4].map(|()| (place(1_000, 12_000), place(1_000, 8_000)));
-        let mut x = 0;
-        let injections = lengths.map(|(before, during)| {
-            let from = x + before;
-            x = from + during;
-            let mode = one(
-                &mut stream,
-                &[
-                    FailureMode::Son1,
-                    FailureMode::Son2,
-                    FailureMode::Sw1,
-                    FailureMode::Rt1,
-                    FailureMode::Loc3,
-                ],
-            );
-            let [from, until] = [from, x].map(|it| When::Place(Millimetres(it)));
-            let part = one(&mut stream, &[Module::Mcl, Module::Ust, Module::Dvz, Module::Smz]);
-            Injection { part, until: Some(until), ..Injection::new(from, mode) }
-        });
-        let script = Script { injections: injections.to_vec(), answers: Vec::new() };
-        let run = supervised.run(&script).unwrap();
-        assert_eq!(game.refusal(&run), None, "{script:?}");
-        returns += run.told.iter().filter(|it| matches!(it.1, Told::Return(_))).count();
-    }
-    assert_eq!(returns, cotama_golden::figure::<usize>("recovering.returns"));
+    assert!(returns > 20, "{returns}");
 }

@@ -5,7 +5,7 @@ use cotama_campaign::run::{Campaign, Settings};
 use cotama_campaign::subject::{Policy, Subject};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::Mission;
-use cotama_models::robots::supervisors::system;
+use cotama_models::robots::supervisors::of_mission;
 use cotama_models::robots::{Moment, RobotFile};
 use cotama_sim::robots::{Driven, Injection, Script};
 use cotama_sim::trace::Record;
@@ -46,7 +46,8 @@ fn conforms(mission: &Mission, script: &Script) {
     let silent = ["faults"].into_iter().chain(operator).map(str::to_owned).collect();
     let round_every = Some(robot.body.as_ref().unwrap().period);
     let recording = Recording { round_every, silent, lines, ..Recording::default() };
-    let verdict = system(robot).with(|it| conform(it, &recording, Options::default()).unwrap());
+    let system = of_mission(robot, &mission.steps());
+    let verdict = system.with(|it| conform(it, &recording, Options::default()).unwrap());
     assert!(verdict.departs.is_none() && verdict.unknown.is_none(), "{verdict:?}");
 }
 

@@ -33,8 +33,8 @@ CASES = [
     ("philosophers:8", [], "EF deadlock", None, 60, 0.01),
     ("philosophers:12", [], "EF (eat_1 & eat_7)", {"eat_1": 1, "eat_7": 1}, 60, 0.01),
     ("local", [], "EF HandOver", {"HandOver": 1}, 12, 0.01),
-    ("delivery", [], "EF ls.Planning", {"ls_Planning": 1}, 60, 0.02),
-    ("delivery", [], "EF (ls.Following & gom.not_wifi)", {"ls_Following": 1, "gom_not_wifi": 1},
+    ("delivery_by_hand", [], "EF ls.Planning", {"ls_Planning": 1}, 60, 0.02),
+    ("delivery_by_hand", [], "EF (ls.Following & gom.not_wifi)", {"ls_Following": 1, "gom_not_wifi": 1},
      200, 0.02),
 ]
 

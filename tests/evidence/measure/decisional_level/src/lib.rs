@@ -16,7 +16,7 @@ use cotama_core::units::{Micros, Millis};
 use cotama_models::cotama::Configuration::FollowingOptimal;
 use cotama_models::cotama::load::{self, Load, MOST, SPARE};
 use cotama_models::cotama::{
-    Body, Cause, Configuration, DecisionalLevel, DeliveryDecider, Finding, Health, Module, Modules,
+    Body, Cause, Configuration, DecisionalLevel, DeliveryDecider, Finding, Health, Modules,
     NoPlanLeft, Perceived, Plans, Requests, Told, Why, Word, delivery,
 };
 use cotama_models::missions::tables::delivery::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
@@ -49,15 +49,10 @@ pub struct Mission {
     rest: Rest,
 }
 
-/// The modules that the mission plans with, in the order of its hardware.
-const HARDWARE: [Module; 11] = {
-    use Module::{Cam, Dvz, Gui, Lan, Mcl, Nav, P3d, Ppl, Sim, Smz, Ust};
-    [P3d, Sim, Ust, Mcl, Nav, Ppl, Gui, Smz, Dvz, Lan, Cam]
-};
-/// The configurations of a drive, in the order of its alternatives.
+/// The configurations of a drive, in the order of its alternatives and of its hardware.
 const DRIVES: [Configuration; 4] = {
     use Configuration as C;
-    [C::FollowingOptimal, C::FollowingReduced, C::FollowingOdometric, C::FollowingDegraded]
+    [C::FollowingOptimal, C::FollowingDvz, C::FollowingOdometric, C::FollowingDegraded]
 };
 
 /// The memory of the caller's that planning needs while it goes on, by the rule and exactly; on the
@@ -75,7 +70,7 @@ impl Plans for Mission {
     }
 
     fn plan(&mut self, _: Why, available: Modules) -> Result<bool, NoPlanLeft> {
-        let have = HARDWARE.iter().enumerate().filter(|(_, it)| available.has(**it));
+        let have = DRIVES.iter().enumerate().filter(|(_, it)| it.runs_on(available));
         let units = have.fold(Equipment::NONE, |all, (kind, _)| all.with(kind, 1).unwrap_or(all));
         let (first, rest) = (self.first, self.rest);
         if self.plan_by_rule(first, rest, units) { Ok(true) } else { Err(NoPlanLeft) }
