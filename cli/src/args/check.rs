@@ -73,7 +73,7 @@ Examples:
   $ cotama check service
   $ cotama check delivery
   $ cotama check p3dx-patrol --mission patrol
-  $ cotama check delivery --property 'AG (round & gs.Safe -> ls.Idle)'";
+  $ cotama check delivery_by_hand --property 'AG (round & gs.Safe -> ls.Idle)'";
 
 pub(crate) const STATESPACE_EXAMPLES: &str = "\
 What is counted of an incomplete search is shown as explored, and the exit code is 3. Of an \
