@@ -84,7 +84,7 @@ fn the_delivery_is_driven_in_seven_points() {
         "by_availability": "adapter",
         "decided_ms": 291_500, "decision": "adapter", "event": "adapt_Following",
         "transition": "SON1_PF_OPT1",
-        "answered_ms": 291_600, "exposed_ms": 0,
+        "answered_ms": 291_600, "exposed_ms": 5_200,
     });
     assert_eq!(supervised["failures"][2], sonar);
     assert_eq!(supervised["told"][0], json!({ "round": 1, "event": "gs.mission_received" }));

@@ -227,6 +227,21 @@ fn every_row_is_found_where_it_can_be() {
     }
 }
 
+/// The obstacle is found and the operator asked; two minutes later he counts as silent.
+#[test]
+fn a_silent_operator_ends_the_mission_after_two_minutes() {
+    let mut script = script("LOC2", 6_000);
+    let silent = robot().failure("OPR1").unwrap();
+    script.injections.push(Injection::new(Moment::At(Millis(0)), silent));
+    let run = run(&DELIVERY, &script);
+    assert_eq!((run.outcome, run.operator_requests), (Outcome::Safe, 1));
+    let of = |silence: bool| run.conduct.iter().find(|it| (it.failure == silent) == silence);
+    let (asked, found) =
+        (of(false).unwrap().answered.unwrap(), of(true).unwrap().detected.unwrap());
+    assert!((119_900..=120_100).contains(&(found.0 - asked.0)), "{asked:?} {found:?}");
+    assert!((run.time.0 - found.0) <= 1_000, "{found:?} {:?}", run.time);
+}
+
 /// 4.6 W and the hardware of the configuration, where driving takes more.
 #[test]
 fn a_robot_that_waits_for_the_operator_draws_the_power_of_rest() {

@@ -193,6 +193,7 @@ fn failure() -> Value {
         ("ends_ms", integer(&TIMES, "after so long it is over, in ms")),
         ("helped", flag("whether it is over when the operator has helped")),
         ("no_plan", flag("whether it is that no plan keeps the limits of the mission")),
+        ("unanswered", flag("whether the operator answers nothing while it lasts")),
         ("restart", restart),
         ("set", table(&[], &set, "a setting that answers it")),
         (

@@ -19,6 +19,34 @@ pub enum Where {
     },
 }
 
+impl Where {
+    /// Returns the sub-objective that runs; `None` where none does.
+    pub const fn sub_objective(self) -> Option<usize> {
+        match self {
+            Self::Runs { sub_objective, .. } => Some(sub_objective),
+            Self::Rests | Self::Waits => None,
+        }
+    }
+
+    /// Returns the name of the place: that of the sub-objective, `Waits` or `Idle`.
+    pub fn name(self, robot: &Robot) -> &str {
+        match self {
+            Self::Rests => "Idle",
+            Self::Waits => "Waits",
+            Self::Runs { sub_objective, .. } => {
+                robot.sub_objectives.get(sub_objective).map_or("", |it| it.name.as_str())
+            }
+        }
+    }
+
+    /// Whether the robot has left this place for another one: not so for another configuration of
+    /// the sub-objective that runs.
+    pub fn is_left_for(self, next: Self) -> bool {
+        self.sub_objective() != next.sub_objective()
+            || (self == Self::Waits) != (next == Self::Waits)
+    }
+}
+
 /// Place of the robot, and its losses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Situation {

@@ -312,6 +312,8 @@ pub struct Failure {
     pub helped: bool,
     /// Whether it is that no plan keeps the limits of the mission: the planner tells it.
     pub no_plan: bool,
+    /// Whether the operator answers nothing while it lasts.
+    pub unanswered: bool,
     /// How often a module is started anew before anything counts as lost.
     pub restarts: Option<Restarts>,
     /// The setting that answers it.

@@ -175,7 +175,11 @@ impl Observed {
             unseen_ms: run.unseen.0,
             planned_with_lost: run.planned_with_lost,
             ran_away: run.conduct.iter().any(runs_away),
-            met: run.conduct.iter().map(|it| (it.failure, state(robot, it.during))).collect(),
+            met: run
+                .conduct
+                .iter()
+                .map(|it| (it.failure, it.during.name(robot).to_owned()))
+                .collect(),
             allowed: robot.body.as_ref().map_or((0, 0), |body| {
                 let rows = run.conduct.iter().filter_map(row);
                 (rows.map(|it| allowed_ms(it, body)).sum(), braking_mm(body))
@@ -210,18 +214,6 @@ fn allowed_ms(row: &row::Failure, body: &Body) -> u64 {
 fn braking_mm(body: &Body) -> u64 {
     let v = body.speed_max.0;
     v * v / (2 * body.acceleration.max(1)) + v * body.period.0 / 1_000 + 1
-}
-
-/// The name of a place of the robot in its drive.
-fn state(robot: &Robot, at: Where) -> String {
-    match at {
-        Where::Rests => "Idle".to_owned(),
-        Where::Waits => "Waits".to_owned(),
-        Where::Runs { sub_objective, .. } => {
-            let of = robot.sub_objectives.get(sub_objective);
-            of.map_or_else(String::new, |it| it.name.clone())
-        }
-    }
 }
 
 /// A number for a place of the robot in its drive.

@@ -302,7 +302,7 @@ fn the_delivery_shows_seven_points_with_their_decisions_and_how_far_up_they_went
         "<td>sonar far <small>4.9\u{a0}s</small></td><td>SON1</td><td>SON1</td>\
         <td>medium → adapter</td><td>adapter</td><td><b>adapt_Following</b> <small>5.0\u{a0}s, \
         SON1_PF_OPT1</small></td><td>following PF_OPT_adapts8 <small>5.1\u{a0}s</small></td>\
-        <td class=\"n\">–</td>"
+        <td class=\"n\">5.2\u{a0}s</td>"
     ));
     let steps = |rung: &str| ladder.matches(&format!("<td class=\"step {rung}\">")).count();
     assert_eq!(

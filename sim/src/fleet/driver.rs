@@ -319,11 +319,7 @@ impl Driver {
         }
         self.calm = false;
         let before = std::mem::replace(&mut self.place, place);
-        let of = |it: Where| match it {
-            Where::Runs { sub_objective, .. } => Some(sub_objective),
-            Where::Rests | Where::Waits => None,
-        };
-        if of(before) != of(place) || before == Where::Waits || place == Where::Waits {
+        if before.is_left_for(place) {
             self.place_since = now;
         }
         let Where::Runs { configuration, .. } = place else { return None };

@@ -120,6 +120,11 @@ impl Failures {
         self.all.iter().any(|it| it.found && !it.over && of.contains(&it.number))
     }
 
+    /// Whether the operator answers nothing.
+    pub(super) fn is_unanswered(&self, robot: &Robot) -> bool {
+        self.open(robot).any(|it| it.1.unanswered)
+    }
+
     /// Returns the parts that are broken, known or not.
     pub(crate) fn broken(&self, robot: &Robot) -> Parts {
         self.open(robot).fold(Parts::NONE, |all, it| all.union(it.1.loses))
@@ -245,9 +250,14 @@ impl Failures {
     }
 }
 
-/// Whether flags show a failure now: what shows in motion alone does where the robot is to move.
+/// Whether flags show a failure now: what shows in motion alone does where the robot is to move,
+/// and a silent operator where he is waited for.
 fn is_shown(robot: &Robot, row: &robots::Failure, place: Where) -> bool {
     let is_shown_by_motion = matches!(row.motion, Motion::Blocked | Motion::Slowed(_));
+    let waits = place == Where::Waits || mode(robot, place) == Some(Mode::Operator);
+    if row.unanswered && !waits {
+        return false;
+    }
     row.unseen.is_none() && !row.flags.is_empty() && (!is_shown_by_motion || moves(robot, place))
 }
 

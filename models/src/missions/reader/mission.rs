@@ -77,8 +77,11 @@ pub(in crate::missions) fn definition_of(
 
 /// Reads the whole file.
 pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition> {
+    // All else that such a file says is another form of the same mistake.
+    if supervision::refuse(&root) {
+        return None;
+    }
     let name = name(&mut root);
-    supervision::refuse(&mut root);
     let path_length = root.integer("path_length_mm", POSITIVE).map(Millimetres);
     let limits = root.table("limits").and_then(limits);
     if let Ok(Some(table)) = root.optional_table("rounding") {

@@ -5,10 +5,10 @@ use super::fields::{Fields, Reported};
 use crate::missions::definition::Does;
 use crate::missions::diagnostic::{Diagnostic, Spanned};
 
-/// Reports `[supervision]`, which missions had before their robots had files.
-pub(super) fn refuse(root: &mut Fields<'_>) {
+/// Reports `[supervision]`, which missions had before their robots had files; whether it is there.
+pub(super) fn refuse(root: &Fields<'_>) -> bool {
     if !root.has("supervision") {
-        return;
+        return false;
     }
     let message = "supervisors are made of the file of a robot";
     let it = Diagnostic::new(root.span_of("supervision"), message, "no longer read");
@@ -16,9 +16,7 @@ pub(super) fn refuse(root: &mut Fields<'_>) {
         "write `format = \"panorama-mission/2\"` and `robot = \"p3dx-delivery\"`, and leave out \
          [supervision], [robot], [motion_power], [hardware] and the options of `MOV`",
     ));
-    if let Ok(Some(table)) = root.optional_table("supervision") {
-        table.abandon();
-    }
+    true
 }
 
 /// Reads what an objective does: a mission under supervisors says it, a plain one does not.

@@ -56,6 +56,7 @@ fn failure(mut fields: Fields<'_>, names: &Names, has_each: bool) -> Option<(Fai
         Err(_) => None,
     };
     let no_plan = fields.optional_flag("no_plan");
+    let unanswered = fields.optional_flag("unanswered");
     let unseen = fields.optional_text("unseen");
     let flags = match &unseen {
         _ if no_plan == Ok(Some(true)) => fields.optional_texts("flags").ok(),
@@ -125,6 +126,7 @@ fn failure(mut fields: Fields<'_>, names: &Names, has_each: bool) -> Option<(Fai
         ends: ends.ok()?.map(Millis),
         helped: helped.ok()?.unwrap_or(false),
         no_plan: no_plan.ok()?.unwrap_or(false),
+        unanswered: unanswered.ok()?.unwrap_or(false),
         restarts,
         sets: sets.ok()?,
         mean_mh: mean?,

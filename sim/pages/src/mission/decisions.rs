@@ -94,12 +94,17 @@ fn event(html: &mut String, chain: &Chain<'_>, since: &impl Fn(u64) -> String) {
             let _ = write!(html, "<td><b>{event}</b> <small>{since}{by}</small></td>");
         }
     }
-    let Some(first) = chain.reaction.first() else {
+    // A setting is made by the observation module, which no reaction lists.
+    let set = chain.set.filter(|_| chain.reaction.is_empty());
+    let Some(first) = chain.reaction.first().copied().or(set) else {
         html.push_str("<td class=\"muted\">none</td>");
         return;
     };
-    let line = |it: &&'_ Fired| format!("{} {}", it.net, it.line());
-    let fired: Vec<_> = chain.reaction.iter().map(line).collect();
+    let line = |it: &'_ Fired| {
+        let sets = it.sets.as_ref().filter(|_| set.is_some());
+        sets.map_or_else(|| format!("{} {}", it.net, it.line()), Clone::clone)
+    };
+    let fired: Vec<_> = chain.reaction.iter().copied().chain(set).map(line).collect();
     let _ =
         write!(html, "<td>{} <small>{}</small></td>", markup(&fired.join(", ")), since(first.t_us));
 }

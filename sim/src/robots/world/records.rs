@@ -3,7 +3,7 @@
 use super::World;
 use crate::record::Recorder;
 use crate::run::Reason;
-use crate::trace::supervised::{Configured, Decision, Diagnosis, Failure, Fired, Told};
+use crate::trace::supervised::{Configured, Decision, Diagnosis, Exposure, Failure, Fired, Told};
 use crate::trace::{Activity, End, Plan, Record, Request, ReturnMargin, Sample};
 use cotama_core::net::TransitionId;
 use cotama_core::player::Program;
@@ -18,11 +18,13 @@ pub(in crate::robots) struct Recording<'r, R> {
     plans: usize,
     activity: Option<usize>,
     next_sample: Millis,
+    /// For each failure how long the robot was exposed to it, and whether it is now.
+    exposed: Vec<(Millis, bool)>,
 }
 
 impl<'r, R: Recorder> Recording<'r, R> {
     pub(super) fn new(to: &'r mut R) -> Self {
-        Self { to, plans: 0, activity: None, next_sample: Millis(0) }
+        Self { to, plans: 0, activity: None, next_sample: Millis(0), exposed: Vec::new() }
     }
 
     fn put(&mut self, record: impl FnOnce() -> Record) {
@@ -54,24 +56,13 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     pub(super) fn record_failure<R: Recorder>(&self, to: &mut Recording<'_, R>, number: usize) {
         let (t_us, x_mm) = self.here();
         let failure = u16::try_from(self.run.conduct.len()).unwrap_or(u16::MAX);
-        let (mode, during) = (self.failure_id(number), self.place_name());
+        let (mode, during) =
+            (self.failure_id(number), self.level.place().name(self.robot).to_owned());
         let what = self.robot.failures.get(number).map(|it| match it.item.as_str() {
             "" => it.mode.clone(),
             item => format!("{item}, {}", it.mode),
         });
         to.put(|| Record::Failure(Failure { t_us, x_mm, failure, mode, what, during }));
-    }
-
-    /// The place of the robot in its drive, in a word.
-    fn place_name(&self) -> String {
-        match self.level.place() {
-            Where::Rests => "Idle".to_owned(),
-            Where::Waits => "Waits".to_owned(),
-            Where::Runs { sub_objective, .. } => {
-                let of = self.robot.sub_objectives.get(sub_objective);
-                of.map_or_else(String::new, |it| it.name.clone())
-            }
-        }
     }
 
     pub(super) fn record_diagnosis<R: Recorder>(
@@ -223,11 +214,30 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         to.plans = self.planning.made.len();
     }
 
+    /// Exposures that are over: all of them at the end of the run.
+    fn record_exposures<R: Recorder>(&self, to: &mut Recording<'_, R>, is_end: bool) {
+        to.exposed.resize(self.run.conduct.len(), (Millis(0), false));
+        for (at, it) in self.run.conduct.iter().enumerate() {
+            let Some((before, open)) = to.exposed.get(at).copied() else { continue };
+            let grows = it.exposed > before;
+            if let Some(known) = to.exposed.get_mut(at) {
+                *known = (it.exposed, grows);
+            }
+            if (open || grows) && (!grows || is_end) {
+                let (t_us, x_mm) = self.here();
+                let failure = u16::try_from(at + 1).unwrap_or(u16::MAX);
+                let exposed_ms = it.exposed.0;
+                to.put(|| Record::Exposure(Exposure { t_us, x_mm, failure, exposed_ms }));
+            }
+        }
+    }
+
     /// Activities and samples: where the robot is after the round.
     pub(super) fn record_progress<R: Recorder>(&self, to: &mut Recording<'_, R>) {
         if !R::WANTED {
             return;
         }
+        self.record_exposures(to, false);
         let ((t_us, x_mm), at) = (self.here(), self.progress());
         let under_way = self.objective < self.mission.objectives.len();
         if under_way && to.activity != Some(at.activity) {
@@ -274,6 +284,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         if !R::WANTED {
             return;
         }
+        self.record_exposures(to, true);
         let mut run = self.run.clone();
         (run.time, run.x, run.used) = (self.now, self.drive.x(), self.used());
         run.plans.clone_from(&self.planning.made);

@@ -98,7 +98,8 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// Whether the operator is reached.
     fn link(&self) -> bool {
         let available = self.robot.available(self.failures.broken(self.robot));
-        self.robot.operator.is_some_and(|needs| needs & !available == 0)
+        let reached = self.robot.operator.is_some_and(|needs| needs & !available == 0);
+        reached && !self.failures.is_unanswered(self.robot)
     }
 
     /// Follows the global supervisor to its objective.
@@ -197,17 +198,14 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         }
         self.calm = false;
         let before = std::mem::replace(&mut self.place, place);
-        let of = |it: Where| match it {
-            Where::Runs { sub_objective, .. } => Some(sub_objective),
-            Where::Rests | Where::Waits => None,
-        };
-        if of(before) != of(place) || before == Where::Waits || place == Where::Waits {
+        if before.is_left_for(place) {
             self.place_since = self.now;
         }
-        if place != Where::Rests && !self.first.iter().any(|it| it.0 == of(place)) {
-            self.first.push((of(place), self.now));
+        if place != Where::Rests && !self.first.iter().any(|it| it.0 == place.sub_objective()) {
+            self.first.push((place.sub_objective(), self.now));
         }
-        let helped = mode(self.robot, before) == Some(Mode::Operator) && of(before) != of(place);
+        let helped = mode(self.robot, before) == Some(Mode::Operator)
+            && before.sub_objective() != place.sub_objective();
         if helped {
             self.failures.is_helped(self.robot);
         }

@@ -16,6 +16,11 @@ pub struct Glance;
 /// Markings of a first look.
 const GLANCE: u64 = 1_000;
 
+/// The most transitions of a net on which half of the budget is asked for.
+const WIDE: usize = 10_000;
+/// Markings of a wide net, where others are asked afterwards.
+const TRIED: u64 = 5_000;
+
 const NAME: &str = "stubborn";
 
 impl Engine for Stubborn {
@@ -25,7 +30,10 @@ impl Engine for Stubborn {
 
     fn suits(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Option<Bid> {
         let does = matches!(task, Task::Reach(_)) && net.time().is_none();
-        does.then(|| Bid::half(Bid::LONG, budget))
+        // On a wide net a marking takes milliseconds here, where all of its successors take less.
+        let is_wide = net.pt().transitions.len() > WIDE;
+        let half = || Bid::half(Bid::LONG, budget);
+        does.then(|| if is_wide { Bid::few(Bid::LONG, budget, TRIED) } else { half() })
     }
 
     fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding {
