@@ -23,14 +23,11 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         if self.known == before || is_fatal || self.objective >= self.mission.objectives.len() {
             return;
         }
-        let left = under.units(self.mission, self.known);
         // Hardware that the plan in force does not use changes it no more (Lambert et al. 2024,
         // 7.3.2).
-        let at = self.progress();
-        if !self.planning.needs_no_more(at, left) {
-            let planned = self.planning.plan(PlanCause::Failure(failure), at, left).is_ok();
-            self.run.planned_with_lost |= planned && !self.planning.needs_no_more(at, left);
-            self.record_plans(recording);
+        let left = under.units(self.mission, self.known);
+        if !self.planning.needs_no_more(self.progress(), left) {
+            let planned = self.plans(PlanCause::Failure(failure), recording);
             self.has_plan(planned, recording);
         }
     }
@@ -63,34 +60,32 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             PlanCause::Failure(it) => rows.contains(&it),
             _ => false,
         });
-        let Some(under) = &self.mission.under else { return };
         if !was_without || self.objective >= self.mission.objectives.len() {
             return;
         }
-        let (at, left) = (self.progress(), under.units(self.mission, self.known));
         // Without a plan the one in force goes on.
-        if self.planning.plan(PlanCause::Works(loss), at, left).is_ok() {
-            self.run.planned_with_lost |= !self.planning.needs_no_more(at, left);
+        if self.plans(PlanCause::Works(loss), recording) {
             self.planless = false;
-            self.record_plans(recording);
         }
     }
 
     /// Plans again when the plan in force no longer keeps a limit.
     pub(super) fn watch_margins<R: Recorder>(&mut self, recording: &mut Recording<'_, R>) {
-        let at = self.progress();
-        let (Some(axis), true, Some(under)) =
-            (self.planning.short(at), self.drives(), &self.mission.under)
-        else {
+        let (Some(axis), true) = (self.planning.short(self.progress()), self.drives()) else {
             return;
         };
-        let left = under.units(self.mission, self.known);
-        let planned = self.planning.plan(PlanCause::Margin { axis }, at, left).is_ok();
-        self.run.planned_with_lost |= planned && !self.planning.needs_no_more(at, left);
-        if planned {
-            self.record_plans(recording);
-        }
+        let planned = self.plans(PlanCause::Margin { axis }, recording);
         self.has_plan(planned, recording);
+    }
+
+    /// Plans from here with what is not known to be lost; returns whether there is a plan.
+    fn plans<R: Recorder>(&mut self, cause: PlanCause, recording: &mut Recording<'_, R>) -> bool {
+        let Some(under) = &self.mission.under else { return false };
+        let (at, left) = (self.progress(), under.units(self.mission, self.known));
+        let planned = self.planning.plan(cause, at, left).is_ok();
+        self.run.planned_with_lost |= planned && !self.planning.needs_no_more(at, left);
+        self.record_plans(recording);
+        planned
     }
 
     /// Tells the supervisors once that no plan is left, where the robot's file has a row for it
