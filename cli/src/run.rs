@@ -188,8 +188,8 @@ fn never_left(
 }
 
 fn options(args: &RunArgs, mission: &Mission) -> Result<Options, Failure> {
-    if mission.is_supervised() && (args.upward || !args.planning.lost.is_empty()) {
-        let message = "--upward and --lost are for missions without supervisors";
+    if mission.is_supervised() && !args.planning.lost.is_empty() {
+        let message = "--lost is for missions without supervisors";
         return Err(
             Failure::new(message).help("name a failure in a file of faults: kind = \"failure\"")
         );

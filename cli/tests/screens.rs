@@ -86,7 +86,7 @@ fn a_row_of_numbers_is_broken_between_columns_alone() {
             ("campaign patrol --compare --runs 40", missions),
             ("campaign patrol --compare --runs 1000 --confidence 0.999", missions),
             ("campaign patrol --compare --runs 20 --strategy pairwise", missions),
-            ("campaign delivery --compare --runs 9", &["rule", "exact"]),
+            ("campaign delivery --compare --runs 9", &["rigid", "rule", "usual", "upward"]),
             ("run fleet --robots 4 --tasks 4 --seeds 2", &["optimal", "rounds", "one-by-one"]),
         ] {
             let screen = folder.shell(&format!("COLUMNS={width} cotama {line}")).stdout;

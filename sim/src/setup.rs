@@ -1,18 +1,15 @@
 //! A mission made ready to be run many times: everything that does not depend on the seed.
 
-use crate::options::{FaultChoice, Options, Planner};
+use crate::options::{FaultChoice, Options};
+use crate::plan::{NM_PER_MM, Plannable};
 use crate::streams::Streams;
 use cotama_core::hardware::Equipment;
-use cotama_core::monitor::{Monitor, MonitorError};
-use cotama_core::problem::Candidate;
+use cotama_core::monitor::MonitorError;
 use cotama_core::units::Millis;
+use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Event, EventKind, Faults};
-use cotama_models::missions::tables::Activity;
-use cotama_models::missions::{Mission, Remaining};
 use std::borrow::Cow;
 
-/// Millimetres in units of position, which are nm: a speed in mm/s times a time in µs.
-pub(crate) const NM_PER_MM: u64 = 1_000_000;
 /// The most draws for random events in a run: metres of path times kinds of random events.
 pub const MAX_DRAWS: u64 = 10_000_000;
 
@@ -29,23 +26,13 @@ pub const MAX_DRAWS: u64 = 10_000_000;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Simulation<'m> {
-    pub(crate) mission: &'m Mission,
-    pub(crate) activities: Vec<Activity<'m>>,
-    /// For each activity all its alternatives as candidates of the whole activity; the id is the
-    /// index.
-    pub(crate) whole: Vec<Vec<Candidate<2>>>,
-    /// The same as the plan of the start needs them: every run begins with it.
-    pub(crate) start: Option<Remaining>,
-    pub(crate) planner: Planner,
-    pub(crate) monitor: Monitor<2>,
+    pub(crate) plannable: Plannable<'m>,
     pub(crate) period_us: u64,
     /// Places in nm from which the real power is this many parts per thousand of the modelled one.
     /// *Invariant:* sorted, strictly rising, the first one at 0.
     pub(crate) segments: Vec<(u64, u64)>,
     pub(crate) faults: Faults,
     events: Vec<Pending>,
-    /// Whether plans are made again.
-    pub(crate) adapts: bool,
 }
 
 /// The events that a run meets on its path.
@@ -134,24 +121,11 @@ impl<'m> Simulation<'m> {
         if draws > MAX_DRAWS {
             return Err(SetupError::TooManyDraws { draws });
         }
-        let scenario = mission.scenario();
-        let mut monitor =
-            Monitor::new(scenario.limits, scenario.order).map_err(SetupError::Unwatchable)?;
-        if let Some(upward) = options.upward {
-            monitor = monitor.with_upward(upward);
-        }
-        let activities = scenario.activities();
         let mut simulation = Self {
-            mission,
-            whole: activities.iter().map(whole).collect(),
-            start: Remaining::new(&activities, None, scenario.available).ok(),
-            activities,
-            planner: options.planner.unwrap_or_else(|| Planner::of(mission)),
-            monitor,
+            plannable: Plannable::new(mission, options).map_err(SetupError::Unwatchable)?,
             period_us: period_ms.saturating_mul(1000),
             segments: segments(&faults, mission),
             events: Vec::new(),
-            adapts: !options.rigid,
             faults,
         };
         let scripted = simulation.faults.events.iter();
@@ -164,7 +138,7 @@ impl<'m> Simulation<'m> {
 
     /// The mission.
     pub fn mission(&self) -> &'m Mission {
-        self.mission
+        self.plannable.mission
     }
 
     /// The monitor period.
@@ -174,7 +148,7 @@ impl<'m> Simulation<'m> {
 
     /// All hardware of the robot.
     pub(crate) fn all_hardware(&self) -> Equipment {
-        self.mission.scenario().available
+        self.mission().scenario().available
     }
 
     /// Returns the course of a run with other scripted faults: its events, and the real power along
@@ -183,7 +157,7 @@ impl<'m> Simulation<'m> {
     /// # Errors
     /// [`SetupError::ForeignFaults`] for faults of another mission.
     pub(crate) fn course(&self, faults: &Faults) -> Result<Course<'_>, SetupError> {
-        if !belongs(faults, self.mission) {
+        if !belongs(faults, self.mission()) {
             return Err(SetupError::ForeignFaults);
         }
         let pending = |it: &Event| Pending {
@@ -193,7 +167,7 @@ impl<'m> Simulation<'m> {
         };
         let mut events: Vec<_> = faults.events.iter().map(pending).collect();
         events.sort_by_key(|it| it.x_nm);
-        let segments = segments(faults, self.mission);
+        let segments = segments(faults, self.mission());
         Ok(Course { events: Cow::Owned(events), segments: Cow::Owned(segments) })
     }
 
@@ -206,7 +180,7 @@ impl<'m> Simulation<'m> {
         }
         let streams = Streams::new(seed);
         let mut events = self.events.clone();
-        let length = self.mission.path_length.0;
+        let length = self.mission().path_length.0;
         for (index, random) in self.faults.random.iter().enumerate() {
             let mut stream = streams.stream(&format!("event {}", random.name));
             for metre in (0..length).step_by(1000) {
@@ -222,11 +196,6 @@ impl<'m> Simulation<'m> {
         events.sort_by_key(|event| event.x_nm);
         Cow::Owned(events)
     }
-}
-
-fn whole(activity: &Activity<'_>) -> Vec<Candidate<2>> {
-    let alternatives = activity.alternatives.iter().zip(0u16..);
-    alternatives.filter_map(|(it, id)| it.candidate(activity.whole(it), id)).collect()
 }
 
 fn belongs(faults: &Faults, mission: &Mission) -> bool {

@@ -13,12 +13,12 @@
 //! the monitor, as on its way.
 
 use crate::kernel::Queue;
+use crate::plan::{NM_PER_MM, Planning, Progress};
 use crate::record::{Recorder, Silent};
-use crate::run::{EventCounts, NoPlan, Outcome, PlanCause, PlanMade, Reason, Run};
-use crate::setup::{Course, NM_PER_MM, Pending, SetupError, Simulation};
-use crate::solver::Solver;
+use crate::run::{EventCounts, NoPlan, Outcome, Reason, Run};
+use crate::setup::{Course, Pending, SetupError, Simulation};
 use cotama_core::hardware::Equipment;
-use cotama_core::monitor::Monitor;
+use cotama_core::units::Millimetres;
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::tables::Alternative;
 use hindrance::Hindrance;
@@ -27,7 +27,6 @@ use std::borrow::Cow;
 mod checks;
 mod happenings;
 mod hindrance;
-mod planning;
 mod records;
 
 /// The next event.
@@ -89,19 +88,13 @@ pub struct World<'s> {
     /// Whether the first activity has begun: what happens at the start comes before it.
     begun: bool,
     segment: usize,
-    monitor: Monitor<2>,
+    planning: Planning<'s>,
     available: Equipment,
-    /// The alternative of each activity.
-    choice: Vec<u16>,
-    /// For each activity, the planned cost and the needs from it on; one more element for the end.
-    rest: Vec<([u64; 2], Equipment)>,
-    solver: Solver,
     /// The hardware that failed last, and how many units of it: what a request for it is about.
     lost: (usize, u8),
     checked_us: Option<u64>,
     checks: u64,
     counts: EventCounts,
-    plans: Vec<PlanMade>,
     ended: Option<(Outcome, Option<Reason>)>,
 }
 
@@ -166,8 +159,10 @@ impl<'s> World<'s> {
         course: Course<'s>,
         recorder: &mut R,
     ) -> Result<Self, NoPlan> {
-        let count = simulation.activities.len();
-        let x_start = simulation.activities.first().map_or(0, |activity| activity.x_start.0);
+        let of = &simulation.plannable;
+        let x_start = of.activities.first().map_or(Millimetres(0), |activity| activity.x_start);
+        let (start, available) = (Progress::start(x_start), simulation.all_hardware());
+        let planning = Planning::start(of, &start, available)?;
         let nothing = Alternative::standing(0, 0, Equipment::NONE, 0);
         let mut world = Self {
             simulation,
@@ -177,7 +172,7 @@ impl<'s> World<'s> {
             next_event: 0,
             time_us: 0,
             energy_pj: 0,
-            x_nm: x_start * NM_PER_MM,
+            x_nm: start.x_nm,
             leg_end_nm: 0,
             standing_us: 0,
             fresh: true,
@@ -187,21 +182,17 @@ impl<'s> World<'s> {
             hindrance: None,
             begun: false,
             segment: 0,
-            monitor: simulation.monitor,
-            available: simulation.all_hardware(),
-            choice: vec![0; count],
-            rest: vec![([0; 2], Equipment::NONE); count + 1],
-            solver: Solver::default(),
+            planning,
+            available,
             lost: (0, 0),
             checked_us: None,
             checks: 0,
             counts: EventCounts::default(),
-            plans: Vec::new(),
             ended: None,
         };
         world.find_segment();
-        world.plan(PlanCause::Start, None, recorder)?;
         world.set_leg();
+        world.record_plan(recorder);
         world.proceed(recorder);
         Ok(world)
     }
@@ -212,9 +203,9 @@ impl<'s> World<'s> {
             match self.queue.pop() {
                 Some((time_us, Next::Check)) => {
                     self.advance(time_us);
-                    let plans = self.plans.len();
+                    let plans = self.planning.made.len();
                     self.check(recorder);
-                    if self.plans.len() > plans {
+                    if self.planning.made.len() > plans {
                         self.schedule();
                     } else if self.ended.is_none() {
                         self.push_check();
@@ -286,11 +277,11 @@ impl<'s> World<'s> {
     }
 
     fn travels(&self) -> bool {
-        self.simulation.activities[self.activity].travels()
+        self.simulation.plannable.activities[self.activity].travels()
     }
 
     fn end_nm(&self) -> u64 {
-        self.simulation.activities[self.activity].x_end.0 * NM_PER_MM
+        self.simulation.plannable.activities[self.activity].x_end.0 * NM_PER_MM
     }
 
     /// The end of a leg is reached.
@@ -314,7 +305,7 @@ impl<'s> World<'s> {
         } else if !self.done {
             self.set_leg();
             self.schedule();
-        } else if self.activity + 1 < self.choice.len() {
+        } else if self.activity + 1 < self.simulation.plannable.activities.len() {
             self.activity += 1;
             self.done = false;
             self.fresh = true;
@@ -336,18 +327,13 @@ impl<'s> World<'s> {
         }
     }
 
-    /// The alternative that is planned for an activity.
-    fn chosen(&self, activity: usize) -> Alternative {
-        self.simulation.activities[activity].alternatives[usize::from(self.choice[activity])]
-    }
-
     fn real_uw(&self, alternative: &Alternative) -> u64 {
         alternative.power.0.saturating_mul(self.segments[self.segment].1)
     }
 
     /// The current activity goes on from here as it is planned now.
     fn set_leg(&mut self) {
-        let alternative = self.chosen(self.activity);
+        let alternative = self.planning.chosen(self.activity);
         self.leg = Leg { alternative, real_uw: self.real_uw(&alternative) };
         if self.fresh {
             self.standing_us = alternative.duration.0.saturating_mul(1000);
@@ -396,7 +382,6 @@ impl<'s> World<'s> {
 
     /// All activities are done.
     fn finish(&mut self) {
-        self.account();
         self.ended = Some(match self.exceeded() {
             Some(reason) => (Outcome::Failed, Some(reason)),
             None => (Outcome::Completed, None),
@@ -405,22 +390,29 @@ impl<'s> World<'s> {
 
     /// The limit that what was used exceeds, the first in their order.
     fn exceeded(&self) -> Option<Reason> {
-        let margins = self.margins(&[0; 2]);
-        let order = self.simulation.mission.scenario().order;
+        let margins = self.left();
+        let order = self.simulation.mission().scenario().order;
         let axis = order.into_iter().find(|&axis| margins[axis] < 0)?;
         Some(Reason::LimitExceeded { axis, by: margins[axis].unsigned_abs() })
     }
 
+    /// Limits less used, when nothing is planned any more.
+    fn left(&self) -> [i64; 2] {
+        let limits = self.simulation.mission().scenario().limits;
+        let used = self.used();
+        std::array::from_fn(|axis| limits[axis].cast_signed() - used[axis].cast_signed())
+    }
+
     fn result(&mut self, outcome: Outcome, reason: Option<Reason>) -> Run {
-        self.account();
+        let plans = std::mem::take(&mut self.planning.made);
         Run {
             outcome,
             reason,
-            replans: (self.plans.len() as u64).saturating_sub(1),
-            plans: std::mem::take(&mut self.plans),
+            replans: (plans.len() as u64).saturating_sub(1),
+            plans,
             operator_requests: 0, // nobody is there to be asked
-            margins: self.margins(&[0; 2]),
-            used: self.monitor.used(),
+            margins: self.left(),
+            used: self.used(),
             time_us: self.time_us,
             energy_pj: self.energy_pj,
             x_mm: self.x_nm / NM_PER_MM,

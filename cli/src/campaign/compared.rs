@@ -21,17 +21,14 @@ pub(super) fn compared(
     let supervised = mission.is_supervised();
     let rule = ("rule", Policy { planner: Some(Planner::Panorama), ..Policy::default() });
     let own = Planner::of(mission);
-    let mut named: Vec<_> = if supervised {
-        vec![rule, (PolicyName::Exact.name(), PolicyName::Exact.policy(true, args.steps))]
-    } else {
-        PolicyName::ALL.map(|it| (it.name(), it.policy(false, args.steps))).to_vec()
-    };
-    // The planner that is usual for the mission stands beside the rule, where it is another one.
-    if supervised && named.iter().all(|it| it.1.of(mission) != own) {
-        named.push((PolicyName::Usual.name(), Policy::default()));
-    } else if !supervised && own != Planner::Panorama {
+    let mut named =
+        PolicyName::ALL.map(|it| (it.name(), it.policy(supervised, args.steps))).to_vec();
+    // The rule stands beside the planner that is usual for the mission, where it is another one; no
+    // planner stands there twice.
+    if own != Planner::Panorama {
         named.insert(1, rule);
     }
+    named.retain(|it| it.0 != PolicyName::Exact.name() || it.1.of(mission) != own);
     let policies: Vec<_> = named.iter().map(|(name, it)| ((*name).to_owned(), *it)).collect();
     let found = compare(mission, &policies, &settings, args.confidence(), jobs(args))
         .map_err(|error| Failure::of(mission.source(), error.to_string()))?;

@@ -69,9 +69,9 @@ pub const AFTER: Millis = Millis(60_000);
 pub struct Policy {
     /// The planner; [that of the mission](Planner::of) if `None`, as in every command.
     pub planner: Option<Planner>,
-    /// Whether better plans are looked for when margins have grown: without supervisors only.
+    /// Whether better plans are looked for when margins have grown.
     pub upward: bool,
-    /// The plan of the start is kept, whatever happens to the margins: without supervisors only.
+    /// The plan of the start is kept, whatever happens to the margins.
     pub rigid: bool,
 }
 
@@ -120,11 +120,8 @@ impl<'m> Subject<'m> {
     pub fn new(mission: &'m Mission, policy: Policy) -> Result<Self, Unready> {
         let no_plan = |why: NoPlan| Unready::NoPlan(why, why.text(mission));
         let robot = if mission.robot().is_some() {
-            if policy.upward || policy.rigid {
-                return Err(Unready::Policy);
-            }
-            let driven = Driven::new(mission).map_err(Unready::Undriven)?;
-            let driven = driven.with_planner(policy.of(mission));
+            let options = policy.options(mission, FaultChoice::None);
+            let driven = Driven::with(mission, &options).map_err(Unready::Undriven)?;
             driven.run(&robots::Script::default()).map_err(no_plan)?;
             Robot::Driven(mission, Box::new(driven), Vec::new())
         } else {

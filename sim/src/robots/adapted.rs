@@ -2,6 +2,7 @@
 
 use super::failing::Failures;
 use cotama_core::units::Millis;
+use cotama_models::cotama::Persistence;
 use cotama_models::robots::{Mode, Robot, members};
 
 /// How long a part that was lost has to work before it is used again (assumed).
@@ -62,6 +63,20 @@ impl Adapted {
         let all = self.settings.iter().filter(holds);
         let all = all.filter_map(|it| robot.losses.reports.get(it.0)?.sets.as_ref());
         let all = all.filter(|it| it.mode.is_none() || it.mode == mode);
+        all.map(|it| it.speed).min().unwrap_or(1_000)
+    }
+
+    /// Returns how much the settings that answer permanent failures leave of the speed of a robot
+    /// that drives itself, in thousandths: the least.
+    pub(crate) fn lasting_speed(&self, robot: &Robot) -> u16 {
+        let stays = |it: &usize| {
+            let row = robot.failures.get(*it);
+            row.is_some_and(|it| it.persistence == Persistence::Permanent)
+        };
+        let reports = self.settings.iter().filter_map(|it| robot.losses.reports.get(it.0));
+        let lasting = reports.filter(|it| it.failures.iter().any(stays));
+        let all = lasting.filter_map(|it| it.sets.as_ref()).filter(|it| !it.mends);
+        let all = all.filter(|it| it.mode != Some(Mode::Operator));
         all.map(|it| it.speed).min().unwrap_or(1_000)
     }
 

@@ -24,10 +24,11 @@ pub(crate) mod operator;
 mod summary;
 mod world;
 
-use crate::options::Planner;
-use crate::plan::Planning;
+use crate::options::{Options, Planner};
+use crate::plan::{Plannable, Planning, Progress};
 use crate::record::{Recorder, Silent};
 use crate::run::{NoPlan, Outcome, PlanMade};
+use cotama_core::monitor::MonitorError;
 use cotama_core::player::{Packed, Program, words};
 use cotama_core::system::SystemError;
 use cotama_core::units::{Millimetres, Millis};
@@ -228,7 +229,7 @@ pub struct Driven<'m> {
     mission: &'m Mission,
     system: OwnedSystem,
     packed: Memory,
-    planner: Planner,
+    plannable: Plannable<'m>,
     monitors: Vec<Monitor>,
     /// For how long the robot is watched when it is safe.
     after: Millis,
@@ -254,6 +255,8 @@ pub enum Undriven {
     Plain,
     /// The supervisors are too large to be played.
     TooLarge(SystemError),
+    /// The limits cannot be watched.
+    Unwatchable(MonitorError),
 }
 
 impl std::fmt::Display for Undriven {
@@ -261,6 +264,7 @@ impl std::fmt::Display for Undriven {
         match self {
             Self::Plain => f.write_str("the mission names no robot that has a file"),
             Self::TooLarge(why) => write!(f, "the robot's supervisors cannot be played: {why}"),
+            Self::Unwatchable(why) => write!(f, "the limits cannot be watched: {why}"),
         }
     }
 }
@@ -273,6 +277,15 @@ impl<'m> Driven<'m> {
     /// # Errors
     /// When it names no robot, or one with more supervisors than can be played.
     pub fn new(mission: &'m Mission) -> Result<Self, Undriven> {
+        Self::with(mission, &Options::default())
+    }
+
+    /// Makes a mission ready, to be planned as the options say; faults are given to each run.
+    ///
+    /// # Errors
+    /// When it names no robot, one with more supervisors than can be played, or limits that cannot
+    /// be watched.
+    pub fn with(mission: &'m Mission, options: &Options) -> Result<Self, Undriven> {
         let robot = mission.robot().ok_or(Undriven::Plain)?.robot();
         let system = supervisors::of_mission(robot, &mission.steps());
         let packed = system.with(|system| {
@@ -283,8 +296,9 @@ impl<'m> Driven<'m> {
             })
         });
         let packed = packed.map_err(Undriven::TooLarge)?;
-        let (planner, monitors, after) = (Planner::of(mission), Vec::new(), Millis(0));
-        Ok(Self { mission, system, packed, planner, monitors, after })
+        let plannable = Plannable::new(mission, options).map_err(Undriven::Unwatchable)?;
+        let (monitors, after) = (Vec::new(), Millis(0));
+        Ok(Self { mission, system, packed, plannable, monitors, after })
     }
 
     /// A property of its supervisors, to be watched: see [`Monitor`].
@@ -309,13 +323,7 @@ impl<'m> Driven<'m> {
 
     /// Returns the planner.
     pub const fn planner(&self) -> Planner {
-        self.planner
-    }
-
-    /// Plans are made by this planner.
-    #[must_use]
-    pub fn with_planner(self, planner: Planner) -> Self {
-        Self { planner, ..self }
+        self.plannable.planner
     }
 
     /// Runs it.
@@ -350,8 +358,8 @@ impl<'m> Driven<'m> {
         period: Millis,
         recorder: &mut R,
     ) -> Result<Run, NoPlan> {
-        let mut planning = Planning::new(self.mission, self.planner);
-        planning.plan(crate::run::PlanCause::Start, world::START, self.mission.available())?;
+        let (start, available) = (Progress::start(Millimetres(0)), self.mission.available());
+        let planning = Planning::start(&self.plannable, &start, available)?;
         let watching = Watching::new(&self.monitors);
         let world = World::start(self.mission, program, planning, script, period, watching);
         let Some(mut world) = world else {

@@ -15,7 +15,7 @@ use crate::plan::{Planning, Progress};
 use crate::record::{Recorder, Silent};
 use crate::run::{LONGEST, Outcome};
 use cotama_core::player::Program;
-use cotama_core::units::{Millimetres, Millis};
+use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::Cause;
 use cotama_models::missions::Mission;
 use cotama_models::missions::tables::Rest;
@@ -28,10 +28,6 @@ mod passing;
 mod planning;
 mod records;
 mod telling;
-
-/// How far a mission has come when it starts.
-pub(super) const START: Progress =
-    Progress { activity: 0, rest: None, now: Millis(0), x_mm: 0, used: [0; 2] };
 
 /// A mission under way.
 pub(super) struct World<'m, P, const W: usize, const S: usize> {
@@ -149,7 +145,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
     /// Runs to the end.
     pub(super) fn run<R: Recorder>(&mut self, recorder: &mut R) {
         let mut recording = Recording::new(recorder);
-        self.record_plans(&mut recording);
+        self.record_plan(&mut recording);
         loop {
             self.step(&mut recording);
             self.record_progress(&mut recording);
@@ -304,27 +300,35 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
     /// The activity under way.
     pub(super) fn activity(&self) -> usize {
         let last = self.mission.scenario().activities.len().saturating_sub(1);
-        self.progress().activity.min(last)
+        self.progress().first.min(last)
     }
 
     /// How far the mission has come.
     pub(super) fn progress(&self) -> Progress {
-        let x_mm = self.drive.x().0;
-        let (now, used) = (self.now, self.used());
+        let (x, t_us) = (self.drive.x(), self.now.0.saturating_mul(1_000));
+        let at = Progress { t_us, used: self.used(), ..Progress::start(x) };
         let Some(objective) = self.mission.objectives.get(self.objective) else {
-            let activity = self.mission.scenario().activities.len();
-            return Progress { activity, rest: None, now, x_mm, used };
+            return Progress { first: self.mission.scenario().activities.len(), ..at };
         };
-        let activity = self.planning.activity(self.objective, x_mm);
-        let rest = if objective.travels() {
-            let end = self.mission.scenario().activities.get(activity).map_or(0, |it| it.x_end.0);
-            let left = end.saturating_sub(x_mm) + self.hindered.owed().0;
-            Rest::Travel(Millimetres(left.max(1)))
+        let first = self.planning.activity(self.objective, x.0);
+        if objective.travels() {
+            let end = self.mission.scenario().activities.get(first).map_or(0, |it| it.x_end.0);
+            let left = Millimetres((end.saturating_sub(x.0) + self.hindered.owed().0).max(1));
+            let beside = self.planning.slower(first, left, |it| self.lasting_speed(it));
+            Progress { first, rest: Some(Rest::Travel(left)), beside, ..at }
         } else {
             let done = self.now.0.saturating_sub(self.objective_since.0);
-            Rest::Time(Millis(self.planning.standing(activity).0.saturating_sub(done)))
-        };
-        Progress { activity, rest: Some(rest), now, x_mm, used }
+            let left = Millis(self.planning.standing(first).0.saturating_sub(done));
+            Progress { first, rest: Some(Rest::Time(left)), ..at }
+        }
+    }
+
+    /// The fastest that a configuration goes from now on, as far as is known: settings that answer
+    /// failures which stay hold the robot back for all of its way.
+    fn lasting_speed(&self, configuration: usize) -> MillimetresPerSecond {
+        let of = self.robot.configurations.get(configuration);
+        let left = u64::from(self.adapted.lasting_speed(self.robot));
+        of.map_or(MillimetresPerSecond(0), |it| MillimetresPerSecond(it.speed.0 * left / 1_000))
     }
 
     /// Observers raise flags, and what they show is reported.

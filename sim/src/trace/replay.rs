@@ -73,8 +73,8 @@ pub struct Replayed {
 }
 
 impl Trace {
-    /// Runs a mission and records everything: under the supervisors of its robot, if it names one.
-    /// The seed and the search for better plans change nothing there.
+    /// Runs a mission and records everything: under the supervisors of its robot, if it names one;
+    /// the seed changes nothing there.
     ///
     /// # Errors
     /// A [`RecordError`] for options that do not fit the mission, or no plan at the start.
@@ -189,8 +189,7 @@ fn driven(
     period: Millis,
     records: &mut Vec<Record>,
 ) -> Result<Run, RecordError> {
-    let planner = options.planner.unwrap_or_else(|| Planner::of(mission));
-    let ready = Driven::new(mission).map_err(RecordError::Undriven)?.with_planner(planner);
+    let ready = Driven::with(mission, options).map_err(RecordError::Undriven)?;
     if period.0 == 0 {
         return Err(RecordError::Setup(SetupError::ZeroPeriod));
     }

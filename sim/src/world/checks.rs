@@ -1,67 +1,53 @@
 //! The checks of the margins, and what follows from them (rule 5 of the paper's algorithm).
 
 use super::World;
+use crate::plan::{Assessed, NM_PER_MM, Progress};
 use crate::record::Recorder;
-use crate::run::{MAX_CHECKS, MAX_REPLANS, NoPlan, Outcome, PlanCause, Reason};
-use cotama_core::hardware::Equipment;
-use cotama_core::monitor::{self, MAX_AMOUNT, Request};
-use cotama_core::units::{Millijoules, Millis, mul_div_half_up};
-use cotama_models::missions::tables::{DURATION, ENERGY};
+use crate::run::{MAX_CHECKS, Outcome, PlanCause, Reason};
+use crate::trace::Record;
+use cotama_core::monitor::MAX_AMOUNT;
+use cotama_core::units::{Millijoules, Millimetres, Millis, mul_div_half_up};
+use cotama_models::missions::tables::Rest;
 
 impl World<'_> {
     /// Compares consumption with the plan, and replans when it no longer holds.
     pub(super) fn check<R: Recorder>(&mut self, recorder: &mut R) {
         if self.checks >= MAX_CHECKS {
-            let cause = self.plans.last().map_or(PlanCause::Start, |plan| plan.cause);
+            let cause = self.planning.made.last().map_or(PlanCause::Start, |plan| plan.cause);
             self.stop(cause, Reason::TooManyChecks, recorder);
             return;
         }
         self.checks += 1;
         self.checked_us = Some(self.time_us);
-        self.account();
-        let (rest, needs) = self.remaining();
-        let margins = self.margins(&rest);
+        let at = self.progress();
         if R::WANTED {
-            recorder.record(self.sample_record(margins));
+            recorder.record(self.sample_record(self.planning.margins(&at)));
         }
-        let request = self.monitor.assess(&rest, needs, self.available);
-        match request {
-            Ok(Request::Keep) | Err(_) => {}
-            Ok(_) if self.first_remaining() == self.choice.len() => {}
-            Ok(Request::Up) => self.plan_upwards(&rest, margins, recorder),
-            Ok(Request::Down(trigger)) => {
-                let cause = match trigger {
-                    monitor::Trigger::Margin { axis } => PlanCause::Margin { axis },
-                    monitor::Trigger::Hardware => {
-                        PlanCause::Hardware { hardware: self.lost.0, units: self.lost.1 }
-                    }
-                };
-                if !self.simulation.adapts {
-                    // A margin below zero is borne; lost hardware that is needed ends the mission.
-                    if trigger == monitor::Trigger::Hardware {
-                        let activity = self.first_remaining();
-                        self.stop(cause, Reason::NoPlan(NoPlan::Emptied { activity }), recorder);
-                    }
-                } else if self.plans.len() as u64 > MAX_REPLANS {
-                    self.stop(cause, Reason::TooManyReplans, recorder);
-                } else if let Err(none) = self.plan(cause, Some(margins), recorder) {
-                    self.stop(cause, Reason::NoPlan(none), recorder);
+        let lost = PlanCause::Hardware { hardware: self.lost.0, units: self.lost.1 };
+        match self.planning.assess(&at, self.available, Some(lost)) {
+            Assessed::Keeps => {}
+            Assessed::Planned => {
+                if !self.done {
+                    self.set_leg();
                 }
+                self.record_plan(recorder);
             }
+            Assessed::Fails(cause, reason) => self.stop(cause, reason, recorder),
         }
     }
 
-    /// Tells the monitor what was used.
-    pub(super) fn account(&mut self) {
-        let before = self.monitor.used();
-        let used = self.used();
-        // Both sides are at most MAX_AMOUNT, so this cannot be refused.
-        let _ = self
-            .monitor
-            .spend(&std::array::from_fn(|axis| used[axis].saturating_sub(before[axis])));
+    /// Records the plan that was made now.
+    pub(super) fn record_plan<R: Recorder>(&self, recorder: &mut R) {
+        if R::WANTED
+            && let Some(plan) = self.planning.record(&self.progress(), self.available)
+        {
+            let after = [plan.after.duration_ms, plan.after.energy_mj];
+            recorder.record(Record::Plan(Box::new(plan)));
+            recorder.record(self.sample_record(after));
+        }
     }
 
-    /// Returns the amounts used, in ms and mJ, rounded half up; at most those that the monitor can
+    /// Returns the amounts used, in ms and mJ, rounded half up; at most those that a monitor can
     /// count.
     pub(super) fn used(&self) -> [u64; 2] {
         const PJ_PER_MJ: u64 = 1_000_000_000;
@@ -74,22 +60,34 @@ impl World<'_> {
         [time_ms.min(MAX_AMOUNT), energy_mj.min(MAX_AMOUNT)]
     }
 
-    pub(super) fn margins(&self, rest: &[u64; 2]) -> [i64; 2] {
-        self.monitor.margins(rest).unwrap_or([i64::MIN; 2])
+    /// How far the mission has come.
+    pub(super) fn progress(&self) -> Progress {
+        let first = self.activity + usize::from(self.done);
+        let (rest, cost) = if self.done {
+            (None, None)
+        } else {
+            (self.rest_of_current(), Some(self.cost_of_current()))
+        };
+        let (beside, used) = (self.detour_beside(), self.used());
+        Progress { first, rest, cost, beside, t_us: self.time_us, x_nm: self.x_nm, used }
     }
 
-    /// The first activity that is not done.
-    pub(super) fn first_remaining(&self) -> usize {
-        self.activity + usize::from(self.done)
-    }
-
-    /// The planned cost and the needs of what is left.
-    fn remaining(&self) -> ([u64; 2], Equipment) {
-        let first = self.first_remaining();
-        let (later, needs) = self.rest[(self.activity + 1).min(self.choice.len())];
-        if first > self.activity {
-            return (later, needs);
+    /// Returns the rest of the current activity; `None` if it is whole.
+    fn rest_of_current(&self) -> Option<Rest> {
+        let detour_nm = self.detour_nm();
+        if self.fresh && (detour_nm == 0 || !self.travels()) {
+            None
+        } else if self.travels() {
+            let left_nm = self.end_nm().saturating_sub(self.x_nm).saturating_add(detour_nm);
+            Some(Rest::Travel(Millimetres(left_nm.div_ceil(NM_PER_MM))))
+        } else {
+            let left_ms = mul_div_half_up(self.standing_us, 1, 1000).unwrap_or(u64::MAX);
+            Some(Rest::Time(Millis(left_ms)))
         }
+    }
+
+    /// The planned cost of the rest of the current activity, from the very place of the robot.
+    fn cost_of_current(&self) -> [u64; 2] {
         let alternative = &self.leg.alternative;
         let duration = if self.travels() {
             // nm over mm/s is µs; half up to ms.
@@ -102,13 +100,8 @@ impl World<'_> {
             mul_div_half_up(self.standing_us, 1, 1000)
         };
         let duration = duration.unwrap_or(MAX_AMOUNT);
-        let energy =
-            Millijoules::spent(alternative.power, Millis(duration)).map_or(MAX_AMOUNT, |it| it.0);
-        let beside = self.detour_beside();
-        let mut cost = [0, 1].map(|axis| later[axis].saturating_add(beside[axis]));
-        cost[DURATION] = cost[DURATION].saturating_add(duration);
-        cost[ENERGY] = cost[ENERGY].saturating_add(energy);
-        (cost, needs.union(alternative.needs))
+        let energy = Millijoules::spent(alternative.power, Millis(duration));
+        [duration, energy.map_or(MAX_AMOUNT, |it| it.0)]
     }
 
     /// The robot stops, and the mission is aborted: safely, if it is within its limits.
@@ -117,7 +110,6 @@ impl World<'_> {
         if R::WANTED {
             recorder.record(self.abort_record(cause, reason));
         }
-        self.account();
         self.ended = Some(match self.exceeded() {
             Some(exceeded) => (Outcome::Failed, Some(exceeded)),
             None => (Outcome::Safe, Some(reason)),

@@ -51,7 +51,7 @@ impl World<'_> {
                 let after = before.saturating_add(units).min(all);
                 self.available = self.available.with(hardware, after).unwrap_or(self.available);
                 if after > before {
-                    self.monitor.hardware_returned();
+                    self.planning.hardware_returned();
                 }
                 after - before
             }

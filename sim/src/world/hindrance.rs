@@ -2,8 +2,9 @@
 //! Either passes in the periods of the monitor.
 
 use super::World;
+use crate::plan::NM_PER_MM;
 use crate::record::Recorder;
-use crate::setup::{NM_PER_MM, Pending};
+use crate::setup::Pending;
 use cotama_core::units::{MillimetresPerSecond, Milliwatts, mul_div_half_up};
 use cotama_models::missions::faults::EventKind;
 use cotama_models::missions::tables::Alternative;
@@ -123,7 +124,7 @@ impl World<'_> {
 
     /// The modelled power of standing with the hardware of the alternative on.
     fn rest_power(&self) -> Milliwatts {
-        let mission = self.simulation.mission;
+        let mission = self.simulation.mission();
         let standing = mission.motion_power.at(MillimetresPerSecond(0));
         let hardware = mission.power_of(self.leg.alternative.needs);
         Milliwatts(standing.0.saturating_add(hardware.0))
@@ -131,8 +132,8 @@ impl World<'_> {
 
     /// The current activity, or the first one after it that travels, as it is planned.
     fn driving(&self) -> Option<Alternative> {
-        let mut remaining =
-            (self.activity..self.choice.len()).map(|activity| self.chosen(activity));
+        let all = self.activity..self.simulation.plannable.activities.len();
+        let mut remaining = all.map(|activity| self.planning.chosen(activity));
         remaining.find(|alternative| alternative.speed.0 > 0)
     }
 }

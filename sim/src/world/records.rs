@@ -1,11 +1,10 @@
 //! The robot's records in the trace.
 
 use super::World;
+use crate::plan::NM_PER_MM;
 use crate::run::{PlanCause, PlanMade, Reason, Run};
-use crate::setup::{NM_PER_MM, Pending};
-use crate::trace::{
-    Abort, Activity, End, Event, Margins, Occurrence, Plan, PlanRow, Record, ReturnMargin, Sample,
-};
+use crate::setup::Pending;
+use crate::trace::{Abort, Activity, End, Event, Occurrence, PlanRow, Record, Sample};
 use cotama_core::units::mul_div_half_up;
 use cotama_models::missions::Mission;
 use cotama_models::missions::faults::EventKind;
@@ -39,42 +38,19 @@ impl World<'_> {
 
     fn id(&self, activity: usize) -> String {
         self.simulation
-            .mission
+            .mission()
             .scenario()
             .activities
             .get(activity)
             .map_or_else(String::new, |it| it.id.clone())
     }
 
-    pub(super) fn plan_record(&self, plan: &PlanMade, worst: &[u64; 2]) -> Plan {
-        let mission = self.simulation.mission;
-        let margins = |way: &[u64; 2]| self.monitor.return_margin(way).ok().map(Margins::from);
-        Plan {
-            t_us: plan.t_us,
-            x_mm: plan.x_mm,
-            cause: plan.cause.text(mission),
-            first_activity: self.id(plan.first_activity),
-            before: plan.before.map(Margins::from),
-            after: plan.after.into(),
-            used: plan.used.into(),
-            plan: plan.rows(mission),
-            steps: plan.steps,
-            allocator: plan.allocator.into(),
-            return_margin: ReturnMargin {
-                end: margins(worst),
-                start: self.way_back().and_then(|way| margins(&way)),
-            },
-        }
-    }
-
     pub(super) fn activity_record(&self) -> Record {
-        let labels = &self.simulation.mission.scenario().activities[self.activity].labels;
-        let choice = usize::from(self.choice[self.activity]);
         Record::Activity(Activity {
             t_us: self.time_us,
             x_mm: self.x_mm(),
             activity: self.id(self.activity),
-            choice: labels.get(choice).cloned().unwrap_or_default(),
+            choice: self.planning.label(self.activity).to_owned(),
             speed_mm_s: self.leg.alternative.speed.0,
         })
     }
@@ -84,7 +60,7 @@ impl World<'_> {
         Record::Sample(Sample {
             t_us: self.time_us,
             x_mm: self.x_mm(),
-            used: self.monitor.used().into(),
+            used: self.used().into(),
             margins: margins.into(),
             planned_power_mw: power.0,
             real_power_mw: mul_div_half_up(self.real_now_uw(), 1, 1000).unwrap_or(u64::MAX),
@@ -95,7 +71,7 @@ impl World<'_> {
     pub(super) fn event_record(&self, pending: &Pending, units: u8, lost_us: u64) -> Record {
         let name = |kind: usize| {
             self.simulation
-                .mission
+                .mission()
                 .hardware
                 .get(kind)
                 .map_or_else(String::new, |it| it.name.clone())
@@ -120,7 +96,7 @@ impl World<'_> {
     }
 
     pub(super) fn abort_record(&self, cause: PlanCause, reason: Reason) -> Record {
-        let mission = self.simulation.mission;
+        let mission = self.simulation.mission();
         Record::Abort(Abort {
             t_us: self.time_us,
             x_mm: self.x_mm(),
@@ -134,7 +110,7 @@ impl World<'_> {
             t_us: run.time_us,
             x_mm: run.x_mm,
             outcome: run.outcome,
-            reason: run.reason.map(|reason| reason.text(self.simulation.mission)),
+            reason: run.reason.map(|reason| reason.text(self.simulation.mission())),
             margins: run.margins.into(),
             used: run.used.into(),
             replans: run.replans,

@@ -14,8 +14,6 @@ pub enum Unready {
     Undriven(Undriven),
     /// The mission has no plan, even if nothing fails: the reason, and the same in words.
     NoPlan(NoPlan, String),
-    /// The policy is for missions without supervisors.
-    Policy,
     /// A requirement is no property that can be watched: its text, and why.
     Property(String, Unmonitored),
     /// A requirement is about supervisors, and the mission has none: its text.
@@ -32,9 +30,6 @@ impl fmt::Display for Unready {
                 "there is no plan even if nothing fails: {why}\n  help: `cotama plan MISSION` says \
                  what weighs most, and what would help"
             ),
-            Self::Policy => {
-                f.write_str("upward and rigid policies are for missions without supervisors")
-            }
             Self::Property(text, why) => write!(f, "`{}`: {why}", text.escape_debug()),
             Self::Plain(text) => write!(
                 f,

@@ -2,9 +2,11 @@
 
 use super::records::Recording;
 use super::{Cause, Failures, Told, World};
+use crate::plan::Assessed;
 use crate::record::Recorder;
 use crate::robots::failing::mode;
 use crate::run::PlanCause;
+use cotama_core::hardware::Equipment;
 use cotama_core::player::Program;
 use cotama_models::cotama::Severity;
 use cotama_models::robots::{Mode, Parts};
@@ -16,7 +18,6 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let before = self.known;
         self.known = before.union(row.loses);
         self.known_rows.insert(failure);
-        let Some(under) = &self.mission.under else { return };
         // A fatal failure ends the mission: nothing is left to plan.
         let mode = mode(self.robot, self.place).unwrap_or(Mode::Autonomous);
         let is_fatal = row.severity(mode) == Severity::Fatal;
@@ -25,8 +26,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         }
         // Hardware that the plan in force does not use changes it no more (Lambert et al. 2024,
         // 7.3.2).
-        let left = under.units(self.mission, self.known);
-        if !self.planning.needs_no_more(self.progress(), left) {
+        if !self.planning.needs_no_more(&self.progress(), self.units()) {
             let planned = self.plans(PlanCause::Failure(failure), recording);
             self.has_plan(planned, recording);
         }
@@ -60,6 +60,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             PlanCause::Failure(it) => rows.contains(&it),
             _ => false,
         });
+        self.planning.hardware_returned();
         if !was_without || self.objective >= self.mission.objectives.len() {
             return;
         }
@@ -69,23 +70,43 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         }
     }
 
-    /// Plans again when the plan in force no longer keeps a limit.
+    /// Plans again where the margins ask for it: one is below zero, or they leave room for a better
+    /// plan. What is lost was planned around when it was told.
     pub(super) fn watch_margins<R: Recorder>(&mut self, recording: &mut Recording<'_, R>) {
-        let (Some(axis), true) = (self.planning.short(self.progress()), self.drives()) else {
+        if !self.drives() {
             return;
-        };
-        let planned = self.plans(PlanCause::Margin { axis }, recording);
-        self.has_plan(planned, recording);
+        }
+        let (at, left) = (self.progress(), self.units());
+        match self.planning.assess(&at, left, None) {
+            Assessed::Keeps => {}
+            Assessed::Planned => {
+                self.is_planned(left, recording);
+                self.has_plan(true, recording);
+            }
+            Assessed::Fails(..) => self.has_plan(false, recording),
+        }
     }
 
     /// Plans from here with what is not known to be lost; returns whether there is a plan.
     fn plans<R: Recorder>(&mut self, cause: PlanCause, recording: &mut Recording<'_, R>) -> bool {
-        let Some(under) = &self.mission.under else { return false };
-        let (at, left) = (self.progress(), under.units(self.mission, self.known));
-        let planned = self.planning.plan(cause, at, left).is_ok();
-        self.run.planned_with_lost |= planned && !self.planning.needs_no_more(at, left);
-        self.record_plans(recording);
+        let (at, left) = (self.progress(), self.units());
+        let planned = self.planning.plan(cause, &at, left).is_ok();
+        if planned {
+            self.is_planned(left, recording);
+        }
         planned
+    }
+
+    /// A new plan is in force.
+    fn is_planned<R: Recorder>(&mut self, left: Equipment, recording: &mut Recording<'_, R>) {
+        self.run.planned_with_lost |= !self.planning.needs_no_more(&self.progress(), left);
+        self.record_plan(recording);
+    }
+
+    /// The hardware that is not known to be lost.
+    pub(super) fn units(&self) -> Equipment {
+        let under = self.mission.under.as_ref();
+        under.map_or(self.mission.available(), |it| it.units(self.mission, self.known))
     }
 
     /// Tells the supervisors once that no plan is left, where the robot's file has a row for it

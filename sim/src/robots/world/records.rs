@@ -4,7 +4,7 @@ use super::World;
 use crate::record::Recorder;
 use crate::run::Reason;
 use crate::trace::supervised::{Configured, Decision, Diagnosis, Exposure, Failure, Fired, Told};
-use crate::trace::{Activity, End, Plan, Record, Request, ReturnMargin, Sample};
+use crate::trace::{Activity, End, Record, Request, Sample};
 use cotama_core::net::TransitionId;
 use cotama_core::player::Program;
 use cotama_core::system::Of;
@@ -15,7 +15,6 @@ use cotama_models::robots::{self, Mode, Where};
 /// The recorder, and how much of a run it has.
 pub(in crate::robots) struct Recording<'r, R> {
     to: &'r mut R,
-    plans: usize,
     activity: Option<usize>,
     next_sample: Millis,
     /// For each failure how long the robot was exposed to it, and whether it is now.
@@ -24,7 +23,7 @@ pub(in crate::robots) struct Recording<'r, R> {
 
 impl<'r, R: Recorder> Recording<'r, R> {
     pub(super) fn new(to: &'r mut R) -> Self {
-        Self { to, plans: 0, activity: None, next_sample: Millis(0), exposed: Vec::new() }
+        Self { to, activity: None, next_sample: Millis(0), exposed: Vec::new() }
     }
 
     fn put(&mut self, record: impl FnOnce() -> Record) {
@@ -191,27 +190,17 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         to.put(|| Record::Configuration(Configured { t_us, x_mm, configuration, mode }));
     }
 
-    pub(super) fn record_plans<R: Recorder>(&self, to: &mut Recording<'_, R>) {
-        for plan in self.planning.made.iter().skip(to.plans) {
-            to.put(|| {
-                let activity = self.mission.scenario().activities.get(plan.first_activity);
-                Record::Plan(Box::new(Plan {
-                    t_us: plan.t_us,
-                    x_mm: plan.x_mm,
-                    cause: plan.cause.text(self.mission),
-                    first_activity: activity.map_or_else(String::new, |it| it.id.clone()),
-                    before: plan.before.map(Into::into),
-                    after: plan.after.into(),
-                    used: plan.used.into(),
-                    plan: plan.rows(self.mission),
-                    steps: plan.steps,
-                    allocator: plan.allocator.into(),
-                    return_margin: ReturnMargin::default(),
-                }))
-            });
-            to.put(|| self.sample(plan.t_us, plan.used, plan.after));
+    /// Records the plan that was made now.
+    pub(super) fn record_plan<R: Recorder>(&self, to: &mut Recording<'_, R>) {
+        if !R::WANTED {
+            return;
         }
-        to.plans = self.planning.made.len();
+        let at = self.progress();
+        if let Some(plan) = self.planning.record(&at, self.units()) {
+            let after = [plan.after.duration_ms, plan.after.energy_mj];
+            to.put(|| Record::Plan(Box::new(plan)));
+            to.put(|| self.sample(at.t_us, at.used, after));
+        }
     }
 
     /// Exposures that are over: all of them at the end of the run.
@@ -240,34 +229,22 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         self.record_exposures(to, false);
         let ((t_us, x_mm), at) = (self.here(), self.progress());
         let under_way = self.objective < self.mission.objectives.len();
-        if under_way && to.activity != Some(at.activity) {
-            to.activity = Some(at.activity);
-            let (choice, speed, _) = self.planning.planned(at.activity);
-            let of = self.mission.scenario().activities.get(at.activity);
+        if under_way && to.activity != Some(at.first) {
+            to.activity = Some(at.first);
+            let of = self.mission.scenario().activities.get(at.first);
             let activity = of.map_or_else(String::new, |it| it.id.clone());
-            let (choice, speed_mm_s) = (choice.to_owned(), speed.0);
+            let choice = self.planning.label(at.first).to_owned();
+            let speed_mm_s = self.planning.chosen(at.first).speed.0;
             to.put(|| Record::Activity(Activity { t_us, x_mm, activity, choice, speed_mm_s }));
         }
         if self.now >= to.next_sample {
             to.next_sample = Millis(self.now.0.saturating_add(self.period.0));
-            to.put(|| self.sample(t_us, self.used(), self.margins()));
+            to.put(|| self.sample(t_us, self.used(), self.planning.margins(&at)));
         }
     }
 
-    /// Limits less used less what is left of the plan in force, in ms and mJ.
-    fn margins(&self) -> [i64; 2] {
-        let (used, rest) = (self.used(), self.planning.rest(self.progress()));
-        let limits = self.mission.scenario().limits;
-        let signed = |it: u64| i64::try_from(it).unwrap_or(i64::MAX);
-        std::array::from_fn(|axis| {
-            signed(limits[axis])
-                .saturating_sub(signed(used[axis]))
-                .saturating_sub(signed(rest[axis]))
-        })
-    }
-
     fn sample(&self, t_us: u64, used: [u64; 2], margins: [i64; 2]) -> Record {
-        let (_, _, planned) = self.planning.planned(self.activity());
+        let planned = self.planning.chosen(self.activity()).power;
         Record::Sample(Sample {
             t_us,
             x_mm: self.drive.x().0,
