@@ -21,7 +21,7 @@ use cotama_campaign::subject::{Policy, Subject};
 use cotama_models::missions::Mission;
 use cotama_pages::campaign::{self as page, Shown};
 use cotama_sim::options::STEPS;
-use cotama_sim::trace::RobotText;
+use cotama_sim::trace::{FloorText, RobotText};
 use std::ops::ControlFlow;
 use std::path::Path;
 use store::Store;
@@ -75,7 +75,8 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
     let planner = policy.planner.filter(|it| *it != usual.of(&mission));
     let header = Header::new(texts, &campaign.settings, args.policy().name(), shard);
     let robot = mission.robot().map(RobotText::of);
-    conduct(args, &Header { planner, robot, ..header }, &campaign, screen)
+    let floor = mission.way.as_ref().map(FloorText::of);
+    conduct(args, &Header { planner, robot, floor, ..header }, &campaign, screen)
 }
 
 /// Runs a campaign over a team.

@@ -42,17 +42,41 @@ fn mission_of_robot() -> Value {
         ("format", word(missions::FORMAT_2, "how this file is written")),
         ("name", name()),
         ("robot", text("the robot: its name, or the path of its file")),
-        ("path_length_mm", integer(&POSITIVE, "how long the path is, in mm")),
         ("limits", limits()),
         ("objective", tables(&objective(true), 1, "what is to be done where, in this order")),
     ];
     let can = [
+        ("path_length_mm", integer(&POSITIVE, "how long the path is, in mm; without a floor")),
+        ("floor", text("the floor: its name, or the path of a drawing or of a map of ROS")),
+        ("from", text("beside `floor`: the place at which the mission starts, or X,Y in mm")),
+        ("open", names("beside `floor`: doors that are open")),
+        ("close", names("beside `floor`: doors that are closed")),
         ("tio", tables(&tio(false), 0, "ways to do a task for which the robot stands")),
-        ("zone", tables(&zone(), 0, "what holds in a part of the path")),
+        ("zone", tables(&zone(true), 0, "what holds in a part of the path")),
         ("plan", plan()),
         ("run", run()),
     ];
-    table(&needs, &can, "The path, the robot, what is to be done, and the limits.")
+    let file = table(&needs, &can, "The path, the robot, what is to be done, and the limits.");
+    let lengths = absent(&["x_start_mm", "x_end_mm"]);
+    let on_floor = json!({
+        "required": ["from"], "properties": { "objective": { "items": lengths } },
+    });
+    let line = json!({
+        "required": ["path_length_mm"],
+        "properties": {
+            "objective": { "items": { "required": ["x_start_mm", "x_end_mm"] } },
+            "zone": { "items": { "required": ["x_start_mm"] } },
+        },
+    });
+    let on_floor = both(&on_floor, &absent(&["path_length_mm"]));
+    let line = both(&line, &absent(&["from", "open", "close"]));
+    let rule = json!({ "if": { "required": ["floor"] }, "then": on_floor, "else": line });
+    with(file, "allOf", json!([rule]))
+}
+
+/// A list of names.
+fn names(meaning: &str) -> Value {
+    json!({ "type": "array", "items": { "type": "string" }, "description": meaning })
 }
 
 fn plain_mission() -> Value {
@@ -68,7 +92,7 @@ fn plain_mission() -> Value {
         ("objective", tables(&objective(false), 1, "what is to be done where, in this order")),
     ];
     let can = [
-        ("zone", tables(&zone(), 0, "what holds in a part of the path")),
+        ("zone", tables(&zone(false), 0, "what holds in a part of the path")),
         ("fixed", fixed()),
         ("rounding", rounding()),
         ("plan", plan()),
@@ -261,19 +285,28 @@ fn tio(is_plain: bool) -> Value {
     with(table(&needs, &can, "a way to do a task"), "allOf", rules)
 }
 
-fn zone() -> Value {
-    let needs = [
-        ("id", id("its name")),
+fn zone(may_be_of_floor: bool) -> Value {
+    let ends = [
         ("x_start_mm", integer(&AT_LEAST_ZERO, "where it begins, in mm")),
         ("x_end_mm", integer(&POSITIVE, "where it ends, in mm")),
     ];
+    let of = ("on_floor", text("the zone of the floor that it is; its own name"));
+    let (needs, first) = if may_be_of_floor {
+        (vec![("id", id("its name"))], [&ends[..], &[of]].concat())
+    } else {
+        ([&[("id", id("its name"))][..], &ends].concat(), Vec::new())
+    };
     let can = [
         ("speed_max_mm_s", integer(&SPEEDS, "not faster here, in mm/s")),
         ("require_tio", text("this option must be used here")),
         ("require_hardware", text("the option that moves must use this")),
         ("require_units", integer(&UNITS, "beside `require_hardware`: so many units of it")),
     ];
-    let rule = json!({ "require_units": ["require_hardware"] });
+    let can = [&first[..], &can].concat();
+    let rule = json!({
+        "require_units": ["require_hardware"],
+        "x_start_mm": ["x_end_mm"], "x_end_mm": ["x_start_mm"],
+    });
     with(table(&needs, &can, "a part of the path"), "dependencies", rule)
 }
 
@@ -283,16 +316,20 @@ fn objective(under_supervisors: bool) -> Value {
         "type": "array", "items": task_name(TASKS), "minItems": 1, "description": meaning,
     });
     let ends = "where it ends, in mm; the same place where the robot stands";
-    let needs = [
-        ("id", id("its name")),
+    let lengths = [
         ("x_start_mm", integer(&AT_LEAST_ZERO, "where it begins, in mm")),
         ("x_end_mm", integer(&AT_LEAST_ZERO, ends)),
     ];
+    let to = ("to", text("on a floor: the place to which it drives, or X,Y in mm"));
     let tasks = ("tasks", with(tasks, "uniqueItems", true.into()));
     let meaning = "`drive`, `receive`, `deliver`, `wait`, or a task of your own in small letters";
     let does = ("does", with(text(meaning), "pattern", "^[a-z][a-z0-9_]{1,15}$".into()));
-    let (last, can) = if under_supervisors { (does, vec![tasks]) } else { (tasks, Vec::new()) };
-    let needs: Vec<_> = needs.into_iter().chain([last]).collect();
+    let name = ("id", id("its name"));
+    let (needs, can) = if under_supervisors {
+        (vec![name, does], [&lengths[..], &[to, tasks]].concat())
+    } else {
+        ([&[name][..], &lengths, &[tasks]].concat(), Vec::new())
+    };
     table(&needs, &can, "a part of what is to be done")
 }
 

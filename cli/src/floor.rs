@@ -13,9 +13,11 @@ use crate::render;
 use crate::render::style::NAME;
 use cotama_floor::map_server::{Map, Metadata};
 use cotama_floor::{
-    Cell, Floor, Grid, Needs, Path as Way, Planner, Point, RouteError, Surface, Version, embedded,
-    metres, picture,
+    Cell, Floor, Grid, Ground, Needs, Path as Way, Planner, Point, RouteError, Surface, Version,
+    embedded, metres, picture,
 };
+use cotama_models::missions::{Asked, Way as MissionWay};
+use cotama_models::robots::RobotFile;
 use std::path::Path;
 
 /// The largest drawing, and the largest image of a map.
@@ -37,7 +39,7 @@ pub(crate) fn floor(args: &FloorArgs, screen: &Screen) -> Result<Exit, Failure> 
             return Err(Failure::new(message).help("end the name in .svg"));
         }
     }
-    let read = read(&args.floor, screen)?;
+    let read = read(&args.floor, Some(screen))?;
     let found = match (&args.from, &args.to) {
         (Some(from), Some(to)) => Some(found(&read, args, from, to)?),
         _ => None,
@@ -64,9 +66,41 @@ pub(crate) fn floor(args: &FloorArgs, screen: &Screen) -> Result<Exit, Failure> 
     Ok(if answer.no_path.is_some() { Exit::Violated } else { Exit::Success })
 }
 
+/// Plans the way of a mission over the floor that it names, for its robot; `None` where there is no
+/// such floor beside the mission, which the reader of missions says.
+///
+/// # Errors
+/// When the floor cannot be read.
+pub(crate) fn way(
+    asked: Asked,
+    folder: Option<&Path>,
+    robot: Option<&RobotFile>,
+) -> Result<Option<MissionWay>, Failure> {
+    let radius = robot.and_then(|it| it.robot().body.as_ref()).map(|it| it.radius.0);
+    let of_robot = |it: u64| Needs { radius_m: it as f64 / 1_000.0, ..Needs::default() };
+    let needs = radius.map_or(Needs::default(), of_robot);
+    let beside = folder.map(|it| it.join(&asked.floor)).filter(|it| it.exists());
+    let name = match beside {
+        Some(file) => file.display().to_string(),
+        None if asked.floor == OFFICE => asked.floor.clone(),
+        None => return Ok(None),
+    };
+    let text = match name.as_str() {
+        OFFICE => embedded::OFFICE.text.to_owned(),
+        file => input::text(file, "a floor", FLOOR_BYTES)?,
+    };
+    Ok(Some(match read(&name, None)? {
+        Read::Drawing(floor) => Ground::Drawing(&floor).way(&name, &text, asked, needs),
+        Read::Map { grid, .. } => Ground::Map(&grid).way(&name, &text, asked, needs),
+    }))
+}
+
+/// The floor that comes with the program.
+const OFFICE: &str = "office";
+
 /// The floor of a name, or in a file.
-fn read(name: &str, screen: &Screen) -> Result<Read, Failure> {
-    if name == "office" {
+fn read(name: &str, screen: Option<&Screen>) -> Result<Read, Failure> {
+    if name == OFFICE {
         return Ok(Read::Drawing(Box::new(embedded::OFFICE.floor()?)));
     }
     let end = Path::new(name).extension().map(|it| it.to_string_lossy().to_lowercase());
@@ -81,10 +115,12 @@ fn read(name: &str, screen: &Screen) -> Result<Read, Failure> {
     }
 }
 
-fn map(name: &str, screen: &Screen) -> Result<Read, Failure> {
+fn map(name: &str, screen: Option<&Screen>) -> Result<Read, Failure> {
     let text = input::text(name, "the text of a map", FLOOR_BYTES)?;
     let (metadata, warnings) = Metadata::parse(input::name(name), &text)?;
-    warnings.iter().for_each(|it| screen.note(&it.to_string()));
+    if let Some(screen) = screen {
+        warnings.iter().for_each(|it| screen.note(&it.to_string()));
+    }
     let image = metadata.image_path(Path::new(name));
     let image = image.to_string_lossy();
     let bytes = input::bytes(&image, "the image of a map", IMAGE_BYTES)?;

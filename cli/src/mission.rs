@@ -2,13 +2,14 @@
 
 use crate::args::{AllocatorName, Lost, Objective, Planning, STEPS};
 use crate::exit::Failure;
+use crate::floor;
 use crate::input;
 use crate::kind::{self, Kind};
 use crate::names::{is_name, near};
 use crate::robot;
 use cotama_campaign::subject::Subject;
 use cotama_core::hardware::Equipment;
-use cotama_models::missions::{Definition, Mission, PlannedFor, embedded};
+use cotama_models::missions::{Asked, Definition, Mission, PlannedFor, embedded};
 use cotama_models::robots::{self, RobotFile};
 use cotama_sim::options::{By, Planner};
 use std::path::Path;
@@ -50,7 +51,11 @@ fn loaded(name: &str, supervised: Option<&str>) -> Result<Mission, Failure> {
         }
         (None, _) => None,
     };
-    Ok(Mission::parse_under(source, &text, robot)?)
+    let way = match Asked::of(&text) {
+        Some(asked) => floor::way(asked, Path::new(source).parent(), robot.as_ref())?,
+        None => None,
+    };
+    Ok(Mission::parse_on(source, &text, robot, way.as_ref())?)
 }
 
 /// Whether a mission names a robot that is neither shipped nor a file beside it: the reader says

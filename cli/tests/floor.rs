@@ -91,3 +91,85 @@ fn places_and_doors_that_are_not_there_are_refused_with_near_names() {
         assert!(refused.stderr.contains(said), "{}", refused.stderr);
     }
 }
+
+/// A mission over the office, with one more text in place of another.
+fn rounds(from: &str, to: &str) -> String {
+    let text = include_str!("texts/rounds.toml");
+    assert!(text.contains(from), "{from}");
+    text.replacen(from, to, 1)
+}
+
+#[test]
+fn a_mission_from_place_to_place_runs_as_the_same_one_in_lengths() {
+    let folder = Folder::new("floor_mission");
+    folder.write("rounds.toml", rounds("rounds", "rounds"));
+    let run = |file: &str| {
+        let trace = format!("{file}.jsonl");
+        let answer =
+            folder.cotama(&["run", file, "--no-report", "--trace", &trace, "--json"]).json(0);
+        let replay = folder.cotama(&["replay", &trace]);
+        assert!(replay.stdout.contains("identical: the run was the same again"), "{file}");
+        answer["run"].clone()
+    };
+    let plan = folder.cotama(&["plan", "rounds.toml", "--json"]).json(0);
+    let rows = plan["activities"].as_array().unwrap();
+    let end = |of: &str| {
+        let all = rows.iter().filter(|it| it["objective"] == of);
+        all.map(|it| it["x_end_mm"].as_u64().unwrap()).max().unwrap()
+    };
+    let ends = ["ToOffice", "TakeUp", "ToLab", "HandOver", "Home"].map(end);
+    let slow: Vec<_> = rows.iter().filter(|it| it["speed_max_mm_s"] == 600).collect();
+    assert_eq!((ends[0], slow.len()), (14_507, 3)); // the corridor is crossed three times
+    let mut text = rounds("floor = \"office\"\nfrom = \"dock\"", "path_length_mm = LENGTH")
+        .replace("LENGTH", &ends[4].to_string());
+    let (zone, of) = ("[[zone]]\nid = \"corridor\"", |it: usize| {
+        let (start, end) = (&slow[it]["x_start_mm"], &slow[it]["x_end_mm"]);
+        format!("[[zone]]\nid = \"corridor{it}\"\nx_start_mm = {start}\nx_end_mm = {end}")
+    });
+    let all = [0, 1, 2].map(|it| format!("{}\nspeed_max_mm_s = 600", of(it))).join("\n");
+    text = text.replacen(&format!("{zone}\nspeed_max_mm_s = 600"), &all, 1);
+    let mut before = 0;
+    for (does, end) in ["drive", "receive", "drive", "deliver", "drive"].into_iter().zip(ends) {
+        let said = format!("does = \"{does}\"");
+        let lengths = format!("does  = \"{does}\"\nx_start_mm = {before}\nx_end_mm = {end}");
+        text = text.replacen(&said, &lengths, 1);
+        before = end;
+    }
+    for to in ["office B", "lab", "dock"] {
+        text = text.replacen(&format!("to = \"{to}\"\n"), "", 1);
+    }
+    folder.write("line.toml", text);
+    assert_eq!(run("rounds.toml"), run("line.toml"));
+}
+
+#[test]
+fn each_mistake_about_a_floor_is_one_message_at_its_place() {
+    let folder = Folder::new("floor_mistakes");
+    let lab = "to = \"lab\"";
+    for (from, to, place, message) in [
+        ("\"office\"", "\"ofice\"", "4:9", "there is no floor `ofice`, and no file of this name"),
+        ("\"dock\"", "\"dok\"", "5:8", "unknown place `dok`; did you mean `dock`?"),
+        (lab, "to = \"labb\"", "37:6", "unknown place `labb`; did you mean `lab`?"),
+        (lab, "to = 7", "37:6", "`to` must be a string, not an integer"),
+        (lab, "", "34:1", "this drive leads nowhere: it starts and ends at 14507 mm"),
+        (lab, "to = \"8000,-500\"", "37:6", "no room at `8000,-500`"),
+        ("does = \"receive\"", "does = \"receive\"\nto = \"lab\"", "34:6", "only one that drives"),
+        ("id = \"corridor\"", "id = \"coridor\"", "24:6", "unknown zone `coridor`"),
+        ("from =", "open = [\"dor D\"]\nfrom =", "5:8", "unknown door `dor D`"),
+        ("from =", "path_length_mm = 9\nfrom =", "5:18", "a length of the path, which the floor"),
+        ("floor = \"office\"", "path_length_mm = 9", "5:8", "`from` speaks of a floor"),
+    ] {
+        folder.write("rounds.toml", rounds(from, to));
+        let said = folder.cotama(&["plan", "rounds.toml"]);
+        assert_eq!(said.code, Some(2), "{to}");
+        let has = |it: &str| said.stderr.contains(it);
+        assert!(has(message) && has(&format!("rounds.toml:{place}\n")), "{to}\n{}", said.stderr);
+    }
+    let nowhere = rounds(lab, "to = \"office D\"");
+    folder.write("rounds.toml", &nowhere);
+    let said = folder.cotama(&["plan", "rounds.toml"]).stderr;
+    assert!(said.contains("nothing leads from `office B` to `office D`"), "{said}");
+    assert!(said.contains("closed are door D: `open` opens one"), "{said}");
+    folder.write("rounds.toml", nowhere.replacen("from =", "open = [\"door D\"]\nfrom =", 1));
+    assert_eq!(folder.cotama(&["plan", "rounds.toml"]).code, Some(0));
+}

@@ -8,12 +8,14 @@ use crate::run::Outcome;
 use serde::{Deserialize, Serialize};
 
 mod compare;
+mod floor;
 mod read;
 mod replay;
 mod robot;
 pub mod supervised;
 
 pub use compare::Difference;
+pub use floor::{FloorText, LegText};
 pub use read::{Head, Limits, Line, TraceError, TraceOf};
 pub use replay::{RecordError, Replayed, replay};
 pub use robot::RobotText;
@@ -73,6 +75,9 @@ pub struct Header {
     /// The file of the robot whose supervisors decided; none where none did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub robot: Option<RobotText>,
+    /// The floor that the mission goes over; none where it names none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub floor: Option<FloorText>,
     /// How it was run.
     pub options: RunOptions,
     /// The limits on duration and energy.

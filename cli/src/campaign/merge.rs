@@ -35,7 +35,9 @@ pub(super) fn merge(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Failur
         return merged(args, &whole, &mut parts, &campaign, screen);
     }
     let robot = whole.robot.as_ref().map(RobotText::file).transpose()?;
-    let mission = Mission::parse_under(&whole.mission_source, &whole.mission, robot)?;
+    let way = whole.floor.as_ref().map(|it| it.way(&whole.mission));
+    let (source, text) = (&whole.mission_source, &whole.mission);
+    let mission = Mission::parse_on(source, text, robot, way.as_ref())?;
     let unknown = || Failure::new("the campaign names a policy or a setting that is not known");
     let policy = PolicyName::ALL.into_iter().find(|it| it.name() == whole.policy);
     let policy = policy.ok_or_else(unknown)?.policy(mission.is_supervised(), STEPS);

@@ -4,8 +4,8 @@ use super::DRAFT;
 use super::parts::{choice, flag, id, integer, named, table, tables, text, with, word};
 use cotama_models::robots::known::{
     BODY_SPEEDS, COEFFICIENTS, COSTS, FORMAT, HOLDS, MAX_FLAGS, MAX_PARAMETERS, MODES, MOTIONS,
-    PERIODS, PERSISTENCES, POSITIVE, POWERS, RANKS, RESTARTS, SETTINGS, SEVERITIES, SLOWED, SPEEDS,
-    TIMES, UNITS, VALUES,
+    PERIODS, PERSISTENCES, POSITIVE, POWERS, RADII, RANKS, RESTARTS, SETTINGS, SEVERITIES, SLOWED,
+    SPEEDS, TIMES, UNITS, VALUES,
 };
 use cotama_models::robots::{MAX_CONFIGURATIONS, MAX_FAILURES, MAX_PARTS};
 use serde_json::{Value, json};
@@ -63,6 +63,7 @@ fn body() -> Value {
     ];
     let can = [
         ("period_ms", integer(&PERIODS, "the period of its control loop, in ms; 100")),
+        ("radius_mm", integer(&RADII, "the radius of the disc in which it turns, in mm; 260")),
         ("mass_g", integer(&POSITIVE, "its mass, in g")),
         (
             "impact_energy_max_mj",

@@ -4,6 +4,7 @@ use super::diagnostic::Spanned;
 use super::faults::Run;
 use super::terms::{MotionPower, PlannedFor};
 use super::under::Under;
+use super::way::Way;
 use crate::names::nearest;
 use cotama_core::hardware::Equipment;
 use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
@@ -309,6 +310,8 @@ pub struct Definition {
     /// The robot from a file whose supervisors decide while the mission runs; `None` for a plain
     /// mission, which only plans again.
     pub under: Option<Under>,
+    /// The way over a floor that it takes, if it names one.
+    pub way: Option<Way>,
     /// How the mission is run by a simulator.
     pub run: Run,
 }

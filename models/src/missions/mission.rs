@@ -28,6 +28,7 @@ use super::reader::{self, Sink};
 use super::scenario::{Constraint, Scenario};
 use super::supervised;
 use super::under::{FORMAT_2, Under};
+use super::way::Way;
 use crate::robots::{Moment, RobotFile, supervisors::Step};
 use std::ops::Deref;
 
@@ -117,10 +118,23 @@ impl Mission {
         text: &str,
         robot: Option<RobotFile>,
     ) -> Result<Self, MissionErrors> {
+        Self::parse_on(source_name, text, robot, None)
+    }
+
+    /// Reads a mission file, with the way that its floor answers to [what it asks](super::Asked).
+    ///
+    /// # Errors
+    /// All errors of the file, with their places; also those of the way.
+    pub fn parse_on(
+        source_name: &str,
+        text: &str,
+        robot: Option<RobotFile>,
+        way: Option<&Way>,
+    ) -> Result<Self, MissionErrors> {
         let sink = Sink::default();
         let definition = if lowering::is_second(text) {
             let robot = robot.as_ref();
-            reader::document(text, &sink, FORMAT_2, |root| reader::definition_of(root, robot))
+            reader::document(text, &sink, FORMAT_2, |root| reader::definition_of(root, robot, way))
         } else {
             let plain = reader::document(text, &sink, FORMAT, reader::definition);
             plain.and_then(|it| Under::given(it, robot, &sink))
@@ -165,7 +179,7 @@ impl Mission {
     /// ```
     pub fn with_limits(&self, limits: [Option<u64>; 2]) -> Result<Self, MissionErrors> {
         let text = reader::with_limits(&self.text, limits);
-        Self::parse_under(&self.source, &text, self.robot().cloned())
+        Self::parse_on(&self.source, &text, self.robot().cloned(), self.way.as_ref())
     }
 }
 

@@ -37,6 +37,8 @@ mod supervised;
 mod terms;
 #[cfg(feature = "std")]
 mod under;
+#[cfg(feature = "std")]
+mod way;
 
 #[cfg(feature = "std")]
 pub use definition::{
@@ -58,3 +60,5 @@ pub use scenario::{
 pub use terms::{MotionPower, PlannedFor, harmless_speed};
 #[cfg(feature = "std")]
 pub use under::{FORMAT_2, Under};
+#[cfg(feature = "std")]
+pub use way::{Asked, Leg, Way};

@@ -44,6 +44,8 @@ pub const COEFFICIENTS: RangeInclusive<i64> = 0..=1_000_000_000;
 pub const BODY_SPEEDS: RangeInclusive<i64> = 1..=10_000;
 /// Periods of a control loop in ms.
 pub const PERIODS: RangeInclusive<i64> = 10..=1_000;
+/// Radii of bodies in mm.
+pub const RADII: RangeInclusive<i64> = 1..=10_000;
 /// Thousandths of the commanded speed that are left.
 pub const SLOWED: RangeInclusive<i64> = 1..=999;
 /// Effects of failures on motion, with their names.

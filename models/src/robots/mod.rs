@@ -86,7 +86,7 @@ pub use settings::{Parameter, Setting, Value};
 use crate::cotama::{Persistence, Severity};
 use crate::missions::MotionPower;
 use cotama_core::net::owned::OwnedNet;
-use cotama_core::units::{Micros, MillimetresPerSecond, Millis, Milliwatts};
+use cotama_core::units::{Micros, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
 
 /// The most kinds of hardware, and the most modules.
 pub const MAX_PARTS: usize = 64;
@@ -135,6 +135,8 @@ pub struct Body {
     pub speed_max: MillimetresPerSecond,
     /// How fast it speeds up and slows down, in mm/s².
     pub acceleration: u64,
+    /// The radius of the disc in which it turns on the spot.
+    pub radius: Millimetres,
     /// The period of its control loop, and of the rounds of its supervisors.
     pub period: Millis,
     /// The power of motion.

@@ -6,7 +6,7 @@ use crate::space::Rates;
 use crate::strategy::StrategyName;
 use cotama_sim::options::Planner;
 use cotama_sim::run::Outcome;
-use cotama_sim::trace::RobotText;
+use cotama_sim::trace::{FloorText, RobotText};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -28,6 +28,9 @@ pub struct Header {
     /// The file of the robot whose supervisors decide; `None` where none does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub robot: Option<RobotText>,
+    /// The floor that the mission goes over; `None` where it names none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub floor: Option<FloorText>,
     /// Number of runs.
     pub runs: u64,
     /// The seed of all draws.
@@ -64,6 +67,7 @@ impl Header {
             mission_source: mission_source.into(),
             mission: mission.into(),
             robot: None,
+            floor: None,
             runs: settings.runs,
             seed: settings.seed,
             strategy: settings.strategy.name().into(),

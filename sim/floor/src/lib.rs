@@ -50,6 +50,7 @@ pub mod picture;
 mod route;
 mod segments;
 mod surface;
+mod way;
 
 pub use field::{Field, FieldError, Measure};
 pub use floor::{
@@ -62,3 +63,4 @@ pub use path::{Path, Projection};
 pub use route::{Needs, Planner, RouteError};
 pub use segments::{MAX_SEGMENTS, MAX_SIZE_M, MAX_SOLIDS, Segment, Segments, SegmentsError};
 pub use surface::{Footprint, Hit, Kind, Sense, Surface};
+pub use way::Ground;

@@ -56,11 +56,13 @@ stroke-linecap:round}
 "
 );
 
-/// From metres to pixels: y down.
-struct View {
+/// The pixels of a picture: to the right, and down.
+#[derive(Clone, Copy, Debug)]
+pub struct Pixels {
     least: Point,
     top: f64,
-    scale: f64,
+    /// The pixels of a metre.
+    pub scale: f64,
 }
 
 /// A number of pixels, to a tenth, without a needless point.
@@ -75,8 +77,9 @@ impl Display for Px {
     }
 }
 
-impl View {
-    fn at(&self, point: Point) -> [f64; 2] {
+impl Pixels {
+    /// Returns the pixels of a point.
+    pub fn at(&self, point: Point) -> [f64; 2] {
         [(point.x - self.least.x) * self.scale + MARGIN, (self.top - point.y) * self.scale + MARGIN]
     }
 
@@ -116,7 +119,7 @@ fn head(out: &mut Elements, size: [f64; 2], title: &str, words: &str) {
 }
 
 /// A rule of a few metres below the picture.
-fn rule(out: &mut Elements, view: &View, size: [f64; 2], metres: f64) {
+fn rule(out: &mut Elements, view: &Pixels, size: [f64; 2], metres: f64) {
     let (left, y) = (MARGIN, size[1] - 10.0);
     let right = left + metres * view.scale;
     out.path(
@@ -127,7 +130,7 @@ fn rule(out: &mut Elements, view: &View, size: [f64; 2], metres: f64) {
     out.push_str("\n");
 }
 
-fn way(out: &mut Elements, view: &View, path: &Path) {
+fn way(out: &mut Elements, view: &Pixels, path: &Path) {
     let line = view.line(path.points().iter().copied(), false);
     out.path("halo", &line);
     out.path("way", &line);
@@ -145,8 +148,17 @@ fn way(out: &mut Elements, view: &View, path: &Path) {
 /// assert!(picture.starts_with("<svg xmlns=") && picture.contains("office B"));
 /// ```
 pub fn floor(floor: &Floor, path: Option<&Path>) -> String {
+    floor_under(floor, path, |_| String::new())
+}
+
+/// Draws the same under more markup, which is made with the pixels of points and those of a metre.
+pub fn floor_under(
+    floor: &Floor,
+    path: Option<&Path>,
+    over: impl FnOnce(&Pixels) -> String,
+) -> String {
     let bounds = floor.bounds();
-    let view = View { least: bounds.least, top: bounds.most.y, scale: SCALE };
+    let view = Pixels { least: bounds.least, top: bounds.most.y, scale: SCALE };
     let size =
         [bounds.width() * SCALE + 2.0 * MARGIN, bounds.height() * SCALE + 2.0 * MARGIN + 12.0];
     let mut out = Elements::default();
@@ -187,11 +199,12 @@ pub fn floor(floor: &Floor, path: Option<&Path>) -> String {
     }
     places(&mut out, &view, floor);
     rule(&mut out, &view, size, 5.0);
+    out.push_str(&over(&view));
     out.push_str("</svg>\n");
     out.into_string()
 }
 
-fn door(out: &mut Elements, view: &View, door: &Door) {
+fn door(out: &mut Elements, view: &Pixels, door: &Door) {
     out.push_str("<g>");
     out.title(&door.name);
     if let (Some([_, closed]), Some([hinge, open])) = (door.leaf(false), door.leaf(true)) {
@@ -210,7 +223,7 @@ fn door(out: &mut Elements, view: &View, door: &Door) {
     out.push_str("</g>\n");
 }
 
-fn places(out: &mut Elements, view: &View, floor: &Floor) {
+fn places(out: &mut Elements, view: &Pixels, floor: &Floor) {
     let all = floor.places.iter().map(|it| (it, false));
     for (place, is_dock) in all.chain(floor.docks.iter().map(|it| (it, true))) {
         let [x, y] = view.at(metres(place.at));
@@ -246,7 +259,7 @@ fn places(out: &mut Elements, view: &View, floor: &Floor) {
 pub fn grid(name: &str, grid: &Grid, path: Option<&Path>) -> String {
     let bounds = grid.bounds();
     let scale = MAP / bounds.width();
-    let view = View { least: bounds.least, top: bounds.most.y, scale };
+    let view = Pixels { least: bounds.least, top: bounds.most.y, scale };
     let size = [MAP + 2.0 * MARGIN, bounds.height() * scale + 2.0 * MARGIN + 12.0];
     let mut out = Elements::default();
     head(&mut out, size, name, "");

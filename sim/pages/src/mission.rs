@@ -13,6 +13,7 @@ mod activities;
 mod charts;
 mod decisions;
 mod events;
+mod floor;
 mod glossary;
 mod headline;
 mod lanes;
@@ -66,6 +67,7 @@ pub fn html(trace: &Trace) -> String {
 pub fn html_beside(trace: &Trace, written: Option<&str>) -> String {
     let view = View::new(trace);
     let mut page = headline::section(&view);
+    page.push_str(&floor::section(&view));
     if view.points.is_empty() {
         page.push_str(&strip::section(&view));
         page.push_str(&charts::section(&view));

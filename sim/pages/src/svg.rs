@@ -116,6 +116,15 @@ impl Svg {
         self.body.line(class, from.map(fixed), to.map(fixed));
     }
 
+    /// A vertical line that a script moves between two places.
+    pub(crate) fn cursor(&mut self, [left, right]: [f64; 2], ends: [f64; 2]) {
+        let ([left, right], [top, bottom]) = ([left, right].map(fixed), ends.map(fixed));
+        self.body.add(format_args!(
+            "<line class=\"cursor\" data-left=\"{left}\" data-right=\"{right}\" x1=\"{left}\" \
+             y1=\"{top}\" x2=\"{left}\" y2=\"{bottom}\"/>"
+        ));
+    }
+
     /// A path given by its commands.
     pub(crate) fn path(&mut self, class: &str, commands: &str) {
         if !commands.is_empty() {

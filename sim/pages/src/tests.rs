@@ -8,6 +8,7 @@ use cotama_sim::trace::{Record, Trace};
 
 mod data;
 mod layout;
+mod on_floor;
 mod reading;
 
 fn recorded(text: &str, options: &Options) -> Trace {

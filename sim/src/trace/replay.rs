@@ -1,7 +1,8 @@
 //! Recording a run, and running a recorded one again.
 
 use super::{
-    Difference, Header, Record, RobotText, RunFaults, RunOptions, RunUpward, SCHEMA, Trace,
+    Difference, FloorText, Header, Record, RobotText, RunFaults, RunOptions, RunUpward, SCHEMA,
+    Trace,
 };
 use crate::faults_text::faults_text;
 use crate::options::{FaultChoice, Options, Planner};
@@ -117,6 +118,7 @@ impl Trace {
             mission_source: mission.source().into(),
             mission: mission.text().into(),
             robot: mission.robot().map(RobotText::of),
+            floor: mission.way.as_ref().map(FloorText::of),
             options: RunOptions {
                 seed: options.seed,
                 faults,
@@ -174,7 +176,8 @@ impl Header {
     /// All errors of its text, or of the robot's.
     pub fn mission(&self) -> Result<Mission, MissionErrors> {
         let robot = self.robot.as_ref().map(RobotText::file).transpose()?;
-        Mission::parse_under(&self.mission_source, &self.mission, robot)
+        let way = self.floor.as_ref().map(|it| it.way(&self.mission));
+        Mission::parse_on(&self.mission_source, &self.mission, robot, way.as_ref())
     }
 }
 

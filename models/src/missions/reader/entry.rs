@@ -11,6 +11,15 @@ pub(super) struct Entry<T> {
     pub(super) item: Option<T>,
 }
 
+impl<T> IntoIterator for Entry<T> {
+    type Item = Self;
+    type IntoIter = std::iter::Once<Self>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        std::iter::once(self)
+    }
+}
+
 impl<T> Entry<T> {
     /// Stands for entries that could not be read.
     pub(super) fn unreadable() -> Self {

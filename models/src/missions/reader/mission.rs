@@ -3,16 +3,19 @@
 use super::entry::{Entry, Names, ids};
 use super::faults;
 use super::fields::{Fields, Reported};
+use super::ground::Ground;
 use super::path::{objective, one_after_the_other, task, zone};
 use super::supervision;
-use crate::missions::definition::{AXES, Definition, Hardware, Robot, Standing, Task, Tio};
+use crate::missions::definition::{AXES, Definition, Hardware, Robot, Standing, Task, Tio, Zone};
 use crate::missions::diagnostic::{Diagnostic, Spanned};
+use crate::missions::faults::PowerError;
 use crate::missions::known::{
     AT_LEAST_ZERO, ENERGIES, NAME_LENGTHS, NEEDED_UNITS, OBJECTIVES, POSITIVE, QUALITIES,
     ROUNDINGS, SPEEDS, UNITS,
 };
 use crate::missions::terms::{MotionPower, PlannedFor, harmless_speed};
 use crate::missions::under::Under;
+use crate::missions::way::Way;
 use crate::names::quoted;
 use crate::robots::{EMBEDDED, RobotFile};
 use cotama_core::hardware::{Equipment, MAX_KINDS};
@@ -24,6 +27,7 @@ use std::ops::Range;
 pub(in crate::missions) fn definition_of(
     mut root: Fields<'_>,
     robot: Option<&RobotFile>,
+    way: Option<&Way>,
 ) -> Option<Definition> {
     let name = name(&mut root);
     let named = root.text("robot");
@@ -32,7 +36,11 @@ pub(in crate::missions) fn definition_of(
         root.index_of(named, "robot", names.into_iter());
     }
     let of = robot.zip(named).and_then(|(file, named)| Under::of(file, named.span, root.sink()));
-    let path_length = root.integer("path_length_mm", POSITIVE).map(Millimetres);
+    let mut ground = Ground::of(&mut root, way);
+    let said = match &ground {
+        Some(_) => None,
+        None => root.integer("path_length_mm", POSITIVE).map(Millimetres),
+    };
     let limits = root.table("limits").and_then(limits);
     let planned_for = root.optional_table("plan").map(|plan| plan.and_then(planned_for));
     let Some(of) = of else {
@@ -43,8 +51,11 @@ pub(in crate::missions) fn definition_of(
     let hardware: Vec<_> = of.hardware.iter().map(entry).collect();
     let mut tios: Vec<_> = all(root.tables("tio", false), |it| tio(it, &hardware, true));
     tios.extend(of.tios.into_iter().map(|it| Entry { id: it.id.clone(), item: Some(it) }));
-    let zones = all(root.tables("zone", false), |table| zone(table, path_length, &hardware, &tios));
-    let objectives = all(root.tables("objective", true), |table| objective(table, &tios, true));
+    let objectives =
+        all(root.tables("objective", true), |table| objective(table, ground.as_mut(), &tios, true));
+    let path_length = said.or_else(|| ground.as_ref()?.length());
+    let read = |table| zone(table, path_length, (ground.as_ref(), true), &hardware, &tios);
+    let zones = all(root.tables("zone", false), read);
     one_after_the_other(&root, path_length, &objectives);
     let names = Names {
         path_length,
@@ -58,6 +69,8 @@ pub(in crate::missions) fn definition_of(
     unique(&root, "objective", items(&objectives).map(|it| (&it.id, &it.span)));
     root.finish();
     let (limits, order) = limits?;
+    let (zones, mut run) = (complete(zones)?, run?);
+    in_all_parts(&zones, &mut run.faults.power_errors);
     Some(Definition {
         name: name?,
         path_length: path_length?,
@@ -69,10 +82,23 @@ pub(in crate::missions) fn definition_of(
         motion_power: of.motion_power,
         tios: complete(tios)?,
         objectives: complete(objectives)?,
-        zones: complete(zones)?,
+        zones,
         under: Some(of.under),
-        run: run?,
+        way: way.filter(|_| ground.is_some()).cloned(),
+        run,
     })
+}
+
+/// Lets what is said of a zone be said of all parts of the path in it.
+fn in_all_parts(zones: &[Zone], errors: &mut Vec<PowerError>) {
+    for it in errors.clone() {
+        let others = zones.iter().enumerate().skip(it.zone + 1);
+        let same = |other: &&(usize, &Zone)| {
+            zones.get(it.zone).is_some_and(|zone| zone.span == other.1.span)
+        };
+        let others = others.filter(|other| same(&other));
+        errors.extend(others.map(|(zone, _)| PowerError { zone, ..it }));
+    }
 }
 
 /// Reads the whole file.
@@ -94,8 +120,10 @@ pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition
         root.table("hardware").and_then(hardware).unwrap_or_else(|| vec![Entry::unreadable()]);
     let mut tios = all(root.tables("tio", true), |table| tio(table, &hardware, false));
     standing(&mut root, &mut tios);
-    let zones = all(root.tables("zone", false), |table| zone(table, path_length, &hardware, &tios));
-    let objectives = all(root.tables("objective", true), |table| objective(table, &tios, false));
+    let read = |table| zone(table, path_length, (None, false), &hardware, &tios);
+    let zones = all(root.tables("zone", false), read);
+    let objectives =
+        all(root.tables("objective", true), |table| objective(table, None, &tios, false));
     one_after_the_other(&root, path_length, &objectives);
     let names = Names { path_length, zones: &zones, hardware: &hardware, robot: None };
     let run = root.optional_table("run").ok().and_then(|run| faults::run(run, &names));
@@ -117,18 +145,19 @@ pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition
         objectives: complete(objectives)?,
         zones: complete(zones)?,
         under: None,
+        way: None,
         run: run?,
     })
 }
 
 /// Every entry of a list, or an unreadable one when the list itself was wrong, which is then
 /// reported.
-fn all<'t, T>(
+fn all<'t, T, I: IntoIterator<Item = Entry<T>>>(
     tables: Option<Vec<Fields<'t>>>,
-    read: impl FnMut(Fields<'t>) -> Entry<T>,
+    read: impl FnMut(Fields<'t>) -> I,
 ) -> Vec<Entry<T>> {
-    tables
-        .map_or_else(|| vec![Entry::unreadable()], |tables| tables.into_iter().map(read).collect())
+    let Some(tables) = tables else { return vec![Entry::unreadable()] };
+    tables.into_iter().flat_map(read).collect()
 }
 
 fn items<T>(entries: &[Entry<T>]) -> impl Iterator<Item = &T> {

@@ -3,6 +3,7 @@
 mod entry;
 mod faults;
 pub(crate) mod fields;
+mod ground;
 mod limits;
 mod mission;
 mod moments;

@@ -2,6 +2,7 @@
 
 use super::entry::{Entry, ids};
 use super::fields::{Fields, Reported};
+use super::ground::{Ground, Span, parts, without_floor};
 use super::supervision;
 use crate::missions::definition::{
     Does, Hardware, HardwareRequirement, Objective, Task, Tio, Zone,
@@ -12,15 +13,25 @@ use crate::names::unknown;
 use cotama_core::units::{Millimetres, MillimetresPerSecond};
 use std::ops::Range;
 
+/// Reads a zone; on a floor it may be as many as the path has parts in it.
 pub(super) fn zone(
     mut fields: Fields<'_>,
     path_length: Option<Millimetres>,
+    (ground, is_of_robot): (Option<&Ground<'_>>, bool),
     hardware: &[Entry<Hardware>],
     tios: &[Entry<Tio>],
-) -> Entry<Zone> {
+) -> Vec<Entry<Zone>> {
     let id = fields.id("id");
-    let x_start = fields.integer("x_start_mm", AT_LEAST_ZERO).map(Millimetres);
-    let x_end = fields.integer("x_end_mm", AT_LEAST_ZERO).map(Millimetres);
+    let spans = if let Some(ground) = ground.filter(|_| !fields.has("x_start_mm")) {
+        let of = fields.optional_text("on_floor");
+        let name = of.ok().flatten().or_else(|| id.clone());
+        name.map(|it| ground.spans(&fields, &it))
+    } else {
+        if ground.is_none() && is_of_robot {
+            without_floor(&mut fields, &["on_floor"]);
+        }
+        span(&mut fields, path_length).map(|it| vec![it])
+    };
     let speed_max = fields.optional_integer("speed_max_mm_s", SPEEDS);
     let require_hardware = required_hardware(&mut fields, hardware);
     let require_tio = fields.optional_text("require_tio").and_then(|name| match name {
@@ -30,6 +41,29 @@ pub(super) fn zone(
             Ok(Some(Spanned { value, span: name.span }))
         }
     });
+    fields.finish();
+    let Some(Spanned { value: id, span }) = id else { return vec![Entry::unreadable()] };
+    let complete = || {
+        Some(Zone {
+            id: id.clone(),
+            span,
+            x_start: Millimetres::ZERO,
+            x_end: Millimetres::ZERO,
+            speed_max: speed_max.ok()?.map(MillimetresPerSecond),
+            require_hardware: require_hardware.ok()?,
+            require_tio: require_tio.ok()?,
+        })
+    };
+    match complete().zip(spans) {
+        Some((zone, spans)) if !spans.is_empty() => parts(&zone, spans),
+        _ => vec![Entry { id, item: None }],
+    }
+}
+
+/// Reads the stretch of the path that a zone is.
+fn span(fields: &mut Fields<'_>, path_length: Option<Millimetres>) -> Option<Span> {
+    let x_start = fields.integer("x_start_mm", AT_LEAST_ZERO).map(Millimetres);
+    let x_end = fields.integer("x_end_mm", AT_LEAST_ZERO).map(Millimetres);
     if let (Some(start), Some(end)) = (x_start, x_end)
         && start >= end
     {
@@ -48,20 +82,7 @@ pub(super) fn zone(
             Diagnostic::new(fields.span_of("x_end_mm"), message, "not on the path").help(help),
         );
     }
-    fields.finish();
-    let Some(Spanned { value: id, span }) = id else { return Entry::unreadable() };
-    let complete = || {
-        Some(Zone {
-            id: id.clone(),
-            span,
-            x_start: x_start?,
-            x_end: x_end?,
-            speed_max: speed_max.ok()?.map(MillimetresPerSecond),
-            require_hardware: require_hardware.ok()?,
-            require_tio: require_tio.ok()?,
-        })
-    };
-    Entry { item: complete(), id }
+    Some([x_start?, x_end?])
 }
 
 fn required_hardware(
@@ -78,15 +99,23 @@ fn required_hardware(
 
 pub(super) fn objective(
     mut fields: Fields<'_>,
+    ground: Option<&mut Ground<'_>>,
     tios: &[Entry<Tio>],
     supervised: bool,
 ) -> Entry<Objective> {
     let id = fields.id("id");
     let does = supervision::does(&mut fields, supervised);
-    let x_start = fields.integer("x_start_mm", AT_LEAST_ZERO).map(Millimetres);
-    let x_end = fields.integer("x_end_mm", AT_LEAST_ZERO).map(Millimetres);
     let doing = does.as_ref().map(|does| does.as_ref().map(|does| does.value));
-    let way = x_start.zip(x_end);
+    let way = if let Some(ground) = ground {
+        ground.leg(&mut fields)
+    } else {
+        if supervised {
+            without_floor(&mut fields, &["to"]);
+        }
+        let x_start = fields.integer("x_start_mm", AT_LEAST_ZERO).map(Millimetres);
+        let x_end = fields.integer("x_end_mm", AT_LEAST_ZERO).map(Millimetres);
+        x_start.zip(x_end)
+    };
     let by_does = supervised && !fields.has("tasks");
     let known = by_does.then(|| match (&doing, way) {
         (Ok(Some(does)), Some(way)) => {
@@ -206,9 +235,13 @@ fn suit_what_it_does(
         } else {
             (format!("this drive leads back, from {x_start} to {x_end}"), "not behind the start")
         };
-        let help =
-            if drives { "let it end behind its start" } else { "let it end where it starts" };
-        fields.report(Diagnostic::new(fields.span_of("x_end_mm"), message, label).help(help));
+        let (key, help) = match (drives, fields.has("x_end_mm")) {
+            (true, true) => ("x_end_mm", "let it end behind its start"),
+            (false, true) => ("x_end_mm", "let it end where it starts"),
+            (true, false) => ("to", "say `to`, another place of the floor"),
+            (false, false) => ("to", "leave `to` out"),
+        };
+        fields.report(Diagnostic::new(fields.span_of(key), message, label).help(help));
         return false;
     }
     let task = does.task();

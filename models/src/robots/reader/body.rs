@@ -2,16 +2,20 @@
 
 use crate::missions::reader::fields::Fields;
 use crate::missions::{Diagnostic, MotionPower, harmless_speed};
-use crate::robots::known::{BODY_SPEEDS, COEFFICIENTS, MOTIONS, PERIODS, POSITIVE, SLOWED};
+use crate::robots::known::{BODY_SPEEDS, COEFFICIENTS, MOTIONS, PERIODS, POSITIVE, RADII, SLOWED};
 use crate::robots::{Body, Motion};
-use cotama_core::units::{Millijoules, MillimetresPerSecond, Millis};
+use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis};
 
 /// The period of a control loop where nothing is said (stated of the delivery: below 0.1 s).
 const PERIOD: Millis = Millis(100);
 
+/// The radius of a robot where nothing is said: a Pioneer 3-DX (its manual, appendix B).
+const RADIUS: Millimetres = Millimetres(260);
+
 pub(super) fn body(mut fields: Fields<'_>) -> Option<Body> {
     let speed_max = fields.integer("speed_max_mm_s", BODY_SPEEDS).map(MillimetresPerSecond);
     let acceleration = fields.integer("acceleration_mm_s2", POSITIVE);
+    let radius = fields.optional_integer("radius_mm", RADII);
     let period = fields.optional_integer("period_ms", PERIODS);
     let motion_power = fields.table("motion_power").and_then(|mut it| {
         let c0 = it.integer("c0", COEFFICIENTS);
@@ -43,6 +47,7 @@ pub(super) fn body(mut fields: Fields<'_>) -> Option<Body> {
     Some(Body {
         speed_max: speed_max?,
         acceleration: acceleration?,
+        radius: radius.ok()?.map_or(RADIUS, Millimetres),
         period: period.ok()?.map_or(PERIOD, Millis),
         motion_power: motion_power?,
         impact,

@@ -203,6 +203,9 @@ fn panel(all: &mut Svg, view: &View<'_>, time: Time, top: f64, whole: bool, ever
             });
         }
     }
+    if whole && view.is_on_floor() {
+        under.cursor([time.layout.left, time.layout.end()], [first, bottom]);
+    }
     let end = bottom + 22.0;
     let end = end + rows.confess(&mut under, end + 10.0);
     all.append(&under);

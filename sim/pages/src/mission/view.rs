@@ -132,6 +132,11 @@ impl<'t> View<'t> {
         errors
     }
 
+    /// Whether the mission goes over a floor.
+    pub(super) fn is_on_floor(&self) -> bool {
+        self.mission.as_ref().is_ok_and(|it| it.way.is_some())
+    }
+
     /// Returns place and time of the run's end.
     pub(super) fn last(&self) -> (u64, u64) {
         self.trace.records.last().map_or((0, 0), |record| (record.x_mm(), record.t_us()))

@@ -10,6 +10,11 @@ impl<'t> Fields<'t> {
         self.sink
     }
 
+    /// Notes that a key may stand here, whatever its value.
+    pub(crate) fn knows(&mut self, key: &'static str) {
+        let _ = self.optional(key);
+    }
+
     /// The digits of a number, with or without decimals, that may be left out.
     pub(crate) fn optional_number(
         &mut self,

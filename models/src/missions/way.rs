@@ -1,0 +1,115 @@
+//! The way of a mission over a floor: what the mission asks for by name, and what the floor
+//! answers.
+//!
+//! A mission of [`FORMAT_2`](super::FORMAT_2) may name a floor and say places in place of lengths
+//! along its path. [`Asked::of`] reads the names, whoever has the floor plans the [`Way`] between
+//! them, and the reader of missions makes lengths of it: all that follows stays on the path.
+
+use cotama_core::units::Millimetres;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// The names that a mission asks a floor for, in the order of its file.
+///
+/// ```
+/// use cotama_models::missions::Asked;
+/// let text = r#"
+/// format = "panorama-mission/2"
+/// floor = "office"
+/// from = "dock"
+/// objective = [{ id = "There", does = "drive", to = "lab" }, { id = "Stay", does = "wait" }]
+/// zone = [{ id = "corridor" }]
+/// "#;
+/// let asked = Asked::of(text).unwrap();
+/// assert_eq!((asked.floor.as_str(), asked.from.as_str()), ("office", "dock"));
+/// assert_eq!((&asked.to[..], &asked.zones[..]), (&["lab".into()][..], &["corridor".into()][..]));
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Asked {
+    /// The floor: a name, or the path of a file.
+    pub floor: String,
+    /// The place at which the mission starts.
+    pub from: String,
+    /// The places to which objectives drive.
+    pub to: Vec<String>,
+    /// Doors that are open, other than the floor says.
+    pub open: Vec<String>,
+    /// Doors that are closed.
+    pub close: Vec<String>,
+    /// Zones of the floor that the mission names.
+    pub zones: Vec<String>,
+}
+
+impl Asked {
+    /// Reads the names; `None` of a mission that names no floor. What is no name is left out: the
+    /// reader of missions reports it.
+    pub fn of(text: &str) -> Option<Self> {
+        let file: toml::Table = text.parse().ok()?;
+        let word = |table: &toml::Table, key: &str| Some(table.get(key)?.as_str()?.to_owned());
+        let words = |key: &str| {
+            let all = file.get(key).and_then(|it| it.as_array());
+            let all = all.into_iter().flatten();
+            all.filter_map(|it| it.as_str().map(str::to_owned)).collect::<Vec<_>>()
+        };
+        let tables = |key: &str| {
+            let all = file.get(key).and_then(|it| it.as_array());
+            all.into_iter().flatten().filter_map(|it| it.as_table())
+        };
+        let of_floor = |it: &&toml::Table| !it.contains_key("x_start_mm");
+        Some(Self {
+            floor: word(&file, "floor")?,
+            from: word(&file, "from").unwrap_or_default(),
+            to: tables("objective").filter_map(|it| word(it, "to")).collect(),
+            open: words("open"),
+            close: words("close"),
+            zones: tables("zone")
+                .filter(of_floor)
+                .filter_map(|it| word(it, "on_floor").or_else(|| word(it, "id")))
+                .collect(),
+        })
+    }
+}
+
+/// A way over a floor, or what is wrong with it: each problem with what there is instead.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Way {
+    /// The name of the floor's file, as in messages.
+    pub source: String,
+    /// The whole text of the file.
+    pub text: Arc<str>,
+    /// The names that this is the answer to.
+    pub asked: Asked,
+    /// What is wrong with the place at which it starts.
+    pub start: Result<(), String>,
+    /// What is wrong with the doors.
+    pub doors: Result<(), String>,
+    /// The way to each place of [`Asked::to`]; an empty reason where it starts at a place that is
+    /// wrong itself.
+    pub legs: Vec<Result<Leg, String>>,
+    /// The parts of the whole path, in mm, inside each zone of [`Asked::zones`].
+    pub zones: Vec<Result<Vec<Range<u64>>, String>>,
+}
+
+/// The way from one place to the next.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Leg {
+    /// The corners of the way in mm, from the left lower corner of the floor.
+    pub points: Vec<[i32; 2]>,
+    /// Its length.
+    pub length: Millimetres,
+}
+
+impl Way {
+    /// Returns the corners of the whole way in mm.
+    pub fn points(&self) -> Vec<[i32; 2]> {
+        let all = self.legs.iter().flatten().flat_map(|it| it.points.iter().copied());
+        let mut points: Vec<_> = all.collect();
+        points.dedup();
+        points
+    }
+
+    /// Returns its whole length.
+    pub fn length(&self) -> Millimetres {
+        Millimetres(self.legs.iter().flatten().map(|it| it.length.0).sum())
+    }
+}

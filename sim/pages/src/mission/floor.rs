@@ -1,0 +1,140 @@
+//! The run on its floor: the way from above, the points of the story on it, and a robot that a
+//! slider moves through time.
+
+use super::MAX_POINTS;
+use super::view::View;
+use crate::format::{metres as in_metres, moment};
+use crate::svg::fixed;
+use cotama_core::text::markup;
+use cotama_floor::{Floor, Path, metres, picture};
+use cotama_models::missions::Way;
+use cotama_sim::trace::Record;
+use std::fmt::Write;
+
+/// The most moments at which the robot is placed; between two of them it moves evenly.
+const MOST: usize = 4_000;
+
+/// The section; nothing for a mission on a line, or on a map whose picture the trace does not hold.
+pub(super) fn section(view: &View<'_>) -> String {
+    let Some(way) = view.mission.as_ref().ok().and_then(|it| it.way.as_ref()) else {
+        return String::new();
+    };
+    let Ok(floor) = Floor::parse(&way.source, &way.text) else { return String::new() };
+    let path = Path::new(way.points().iter().map(|it| metres(*it)).collect());
+    let corners = corners(way);
+    let radius = view.mission.as_ref().ok().and_then(|it| it.robot()?.robot().body.as_ref());
+    let radius_m = radius.map_or(0.26, |it| it.radius.0 as f64 / 1_000.0);
+    let mut data = String::new();
+    let drawn = picture::floor_under(&floor, path.as_ref(), |pixels| {
+        let at = |corner: &Corner| pixels.at(metres(corner.at)).map(fixed);
+        let all: Vec<_> = corners
+            .iter()
+            .map(|it| {
+                let [x, y] = at(it);
+                format!("[{},{x},{y}]", it.along_mm)
+            })
+            .collect();
+        data = format!("\"way\":[{}],{}", all.join(","), moments(view));
+        let mut over = String::from("<g class=\"points\">");
+        for point in view.points.iter().take(MAX_POINTS) {
+            let number = point.number;
+            let [x, y] = place(&corners, point.x_mm, |it| pixels.at(metres(it)));
+            let title = format!("{}, {}", markup(&point.title()), moment(point.t_us));
+            let [x, y] = [fixed(x), fixed(y)];
+            let _ = write!(
+                over,
+                "<g><title>{title}</title><circle class=\"pin\" cx=\"{x}\" cy=\"{y}\" r=\"9\"/>\
+                 <text class=\"pin\" x=\"{x}\" y=\"{y}\" dy=\"4\">{number}</text></g>"
+            );
+        }
+        let radius = radius_m * pixels.scale;
+        let [r, ahead] = [fixed(radius), fixed(radius * 1.6)];
+        let [x, y] = corners.first().map_or([0.0; 2], |it| pixels.at(metres(it.at))).map(fixed);
+        let _ = write!(
+            over,
+            "</g><g class=\"robot\" transform=\"translate({x} {y})\"><circle r=\"{r}\"/>\
+             <path d=\"M0 0H{ahead}\"/></g>"
+        );
+        over
+    });
+    let end = view.last().1 / 1_000;
+    format!(
+        "<section class=\"onfloor\"><h2>On the floor</h2>\n<p class=\"note\">{}, {} from place to \
+         place. The slider moves the robot through the run; numbers are points of the story.</p>\n\
+         <figure class=\"map\">{drawn}</figure>\n<p class=\"player\"><button type=\"button\">\
+         Play</button> <input type=\"range\" min=\"0\" max=\"{end}\" step=\"100\" value=\"0\" \
+         aria-label=\"Time of the run\"> <output></output></p>\n<script>\nvar RUN={{{data}}};\n{}\
+         </script></section>\n",
+        markup(&floor.name),
+        in_metres(way.length().0),
+        include_str!("floor.js")
+    )
+}
+
+/// A corner of the way, with the length along it.
+struct Corner {
+    at: [i32; 2],
+    along_mm: u64,
+}
+
+/// The corners of a way. Lengths of a leg are in proportion, so that they end where missions say.
+fn corners(way: &Way) -> Vec<Corner> {
+    let (mut corners, mut before) = (Vec::new(), 0);
+    for leg in way.legs.iter().flatten() {
+        let lengths = leg.points.iter().zip(leg.points.iter().skip(1));
+        let lengths: Vec<f64> =
+            lengths.map(|(from, to)| (metres(*to) - metres(*from)).norm()).collect();
+        let (whole, mut gone) = (lengths.iter().sum::<f64>(), 0.0);
+        for (at, length) in leg.points.iter().zip(std::iter::once(&0.0).chain(&lengths)) {
+            gone += length;
+            let share = if whole > 0.0 { gone / whole } else { 1.0 };
+            let along_m = share * leg.length.0 as f64 / 1_000.0;
+            corners.push(Corner { at: *at, along_mm: before + millimetres(along_m) });
+        }
+        before += leg.length.0;
+    }
+    corners
+}
+
+#[allow(clippy::cast_sign_loss)] // lengths are at least 0
+fn millimetres(length_m: f64) -> u64 {
+    (length_m * 1_000.0).round() as u64
+}
+
+/// Returns the pixels of a place along the way.
+fn place(corners: &[Corner], x_mm: u64, at: impl Fn([i32; 2]) -> [f64; 2]) -> [f64; 2] {
+    let next = corners.partition_point(|it| it.along_mm < x_mm).min(corners.len() - 1);
+    let (Some(to), Some(from)) = (corners.get(next), corners.get(next.saturating_sub(1))) else {
+        return [0.0; 2];
+    };
+    let span = (to.along_mm - from.along_mm).max(1) as f64;
+    let share = (x_mm.saturating_sub(from.along_mm) as f64 / span).clamp(0.0, 1.0);
+    let (from, to) = (at(from.at), at(to.at));
+    [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * share)
+}
+
+/// Where the robot is when, and what runs: as JSON.
+fn moments(view: &View<'_>) -> String {
+    let every = view.samples.len().div_ceil(MOST).max(1);
+    let last = view.samples.len().saturating_sub(1);
+    let samples = view.samples.iter().enumerate();
+    let samples = samples.filter(|it| it.0 % every == 0 || it.0 == last);
+    let samples: Vec<_> = samples
+        .map(|(_, it)| {
+            let margins = (it.margins.duration_ms, it.margins.energy_mj);
+            let t_ms = it.t_us / 1_000;
+            format!("[{t_ms},{},{},{},{}]", it.x_mm, it.speed_mm_s, margins.0, margins.1)
+        })
+        .collect();
+    let runs = view.trace.records.iter().filter_map(|it| match it {
+        Record::Configuration(it) => {
+            let name = it.configuration.as_deref().unwrap_or("");
+            // No name of a file can end the script.
+            let name = name.replace(['"', '\\', '<'], "?");
+            Some(format!("[{},\"{name}\"]", it.t_us / 1_000))
+        }
+        _ => None,
+    });
+    let runs: Vec<_> = runs.collect();
+    format!("\"samples\":[{}],\"runs\":[{}]", samples.join(","), runs.join(","))
+}
