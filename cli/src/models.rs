@@ -30,7 +30,10 @@ pub(crate) fn models(args: &ModelsArgs, screen: &Screen) -> Result<Exit, Failure
         Some(family) => (entry_row(&family), None),
         None => match model::find(name)? {
             Found::System(system) => (system_row(system), None),
-            Found::Owned(it) => (it.system.with(system_row), None),
+            // A robot or a mission is known by the name that it was asked by.
+            Found::Owned(it) => {
+                (ModelRow { name: name.clone(), ..it.system.with(system_row) }, None)
+            }
             Found::Net(it) => {
                 let known = it.known;
                 let net = it.plain(name, "listed")?;

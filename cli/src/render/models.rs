@@ -213,12 +213,11 @@ fn next(row: &ModelRow) -> String {
         return String::new();
     }
     let commands = match row.kind {
-        ModelKind::Net => vec![format!("simulate {name}"), format!("export {name} --format svg")],
+        ModelKind::Net | ModelKind::System => {
+            vec![format!("simulate {name}"), format!("export {name} --format svg")]
+        }
         ModelKind::Family => {
             row.numbers.iter().map(|it| format!("models {name}:{}", it.least)).collect()
-        }
-        ModelKind::System => {
-            row.components.iter().take(1).map(|it| format!("models {}", it.net)).collect()
         }
     };
     let commands: Vec<_> = commands.iter().map(|it| format!("{NAME}cotama {it}{NAME:#}")).collect();

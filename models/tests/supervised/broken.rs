@@ -10,7 +10,7 @@ use std::fmt::Write;
 /// A way to break a mission: its name, what the message about it says, and what it does.
 type Breaking = (&'static str, &'static str, fn(&mut File));
 
-const BREAKINGS: [Breaking; 40] = [
+const BREAKINGS: [Breaking; 42] = [
     ("nothing on board", "but no object is on board there", |file| {
         file.objectives.remove(file.first("receive"));
     }),
@@ -71,6 +71,12 @@ const BREAKINGS: [Breaking; 40] = [
     ("too many objectives", "at most 250 objectives", |file| file.lengthen(MAX_STEPS + 1)),
     ("not supervised", "`does` is for missions under the supervisors of a robot", |file| {
         file.without_robot();
+    }),
+    ("a failure without its name", "missing key `mode`", |file| {
+        file.events = failure("x_mm = 0", "RT1").replace("mode = \"RT1\"", "");
+    }),
+    ("a failure that never happens", "nothing says when this happens", |file| {
+        file.events = failure("", "RT1");
     }),
     ("a failure of a plain mission", PLAIN, |file| {
         file.plain();

@@ -15,7 +15,8 @@ const OTHERS: [(&str, Answer); 2] = [("done", Answer::Done), ("give_up", Answer:
 
 /// Whether an event is one that the supervisors of a robot deal with.
 pub(super) fn is_incident(fields: &Fields<'_>) -> bool {
-    fields.has("mode") || fields.has("answers") || fields.has("during")
+    let has = |key| fields.has(key);
+    has("mode") || has("answers") || has("during") || fields.says("kind", &["failure", "operator"])
 }
 
 /// Reads an incident.

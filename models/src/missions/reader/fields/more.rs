@@ -10,6 +10,12 @@ impl<'t> Fields<'t> {
         self.sink
     }
 
+    /// Whether a key has one of these texts as its value.
+    pub(crate) fn says(&self, key: &str, texts: &[&str]) -> bool {
+        let text = self.entries.get(key).and_then(|it| it.get_ref().as_str());
+        text.is_some_and(|it| texts.contains(&it))
+    }
+
     /// Notes that a key may stand here, whatever its value.
     pub(crate) fn knows(&mut self, key: &'static str) {
         let _ = self.optional(key);
