@@ -155,9 +155,12 @@ fn failure() -> Value {
     let restart = [
         ("module", text("the module that is started anew; of `each`, that one")),
         ("times", integer(&RESTARTS, "how often, before anything counts as lost")),
+        ("shared", id("rows of one name count together; else each counts alone")),
+        ("mends", flag("whether the failure is over by it, though it does not pass by itself")),
     ];
-    let [module, times] = restart;
-    let restart = table(&[times], &[module], "a module that is started anew first");
+    let [module, times, shared, mends] = restart;
+    let can = [module, shared, mends];
+    let restart = table(&[times], &can, "a module that is started anew first");
     let values = with(
         json!({ "type": "object", "additionalProperties": integer(&VALUES, "the value") }),
         "description",

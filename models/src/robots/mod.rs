@@ -122,6 +122,8 @@ pub struct Robot {
     pub observers: Vec<Observer>,
     /// Failures: the rows of the FMECA.
     pub failures: Vec<Failure>,
+    /// Names under which rows count together how often a module is started anew.
+    pub shared: Vec<String>,
     /// Reports of failures, and the losses that differ.
     pub losses: Losses,
     /// The local supervisor, where the file names a net of its own; else it is made.
@@ -333,6 +335,10 @@ pub struct Restarts {
     pub module: usize,
     /// How often.
     pub times: u8,
+    /// The name of [`Robot::shared`] under which rows count together; `None` where it counts alone.
+    pub shared: Option<usize>,
+    /// Whether the failure is over by it, also one that does not pass by itself.
+    pub mends: bool,
 }
 
 impl Failure {

@@ -30,6 +30,8 @@ pub(super) struct Names {
     pub(super) modules: Vec<String>,
     pub(super) flags: Vec<String>,
     pub(super) parameters: Vec<settings::Named>,
+    /// Names under which restarts count together, and how often each.
+    pub(super) shared: Vec<(String, u8)>,
     /// The place of each module, configuration, flag and failure.
     pub(super) at: Places,
 }
@@ -137,6 +139,7 @@ fn robot(mut fields: Fields<'_>, own: &mut ReadNet<'_>) -> Option<Robot> {
         operator,
         observers: observers.into_iter().collect::<Option<_>>()?,
         failures: failures.into_iter().collect::<Option<Vec<_>>>()?.concat(),
+        shared: names.shared.iter().map(|it| it.0.clone()).collect(),
         losses: Losses::default(),
         local: None,
     };

@@ -73,8 +73,8 @@ impl Failures {
     pub(crate) fn restart(&mut self, robot: &Robot, module: usize) {
         for it in self.all.iter_mut().filter(|it| !it.over) {
             let Some(row) = robot.failures.get(it.number) else { continue };
-            if row.restarts.is_some_and(|it| it.module == module) {
-                it.over |= row.persistence != Persistence::Permanent;
+            if let Some(restarts) = row.restarts.filter(|it| it.module == module) {
+                it.over |= restarts.mends || row.persistence != Persistence::Permanent;
                 (it.seen, it.shown, it.found) = (Millis(0), Millis(0), false);
             }
         }

@@ -52,13 +52,29 @@ const SETTINGS: [&str; 3] = [
 const SEVERITIES: [&str; 4] = ["weak", "medium", "hard", "fatal"];
 
 impl Drawn {
-    /// Draws one by whole numbers below what is asked.
+    /// Draws one of 3 to 7 modules and 5 to 9 failures by whole numbers below what is asked.
     #[must_use]
     pub fn new(below: &mut impl FnMut(u32) -> usize) -> Self {
+        let modules = 3 + below(5);
+        Self::of(below, [modules, modules + 2], 4)
+    }
+
+    /// Draws one of 3 to 12 modules and 3 to 20 failures.
+    #[must_use]
+    #[allow(dead_code)] // stories draw it, which share this file
+    pub fn large(below: &mut impl FnMut(u32) -> usize) -> Self {
+        let modules = 3 + below(10);
+        let failures = if below(4) > 0 { modules + below(9) } else { 3 + below(18) };
+        Self::of(below, [modules, failures], 2 * modules as u32)
+    }
+
+    /// Draws one of so many modules and failures; one module of `standing` stands on nothing.
+    fn of(below: &mut impl FnMut(u32) -> usize, size: [usize; 2], standing: u32) -> Self {
+        let [many, rows] = size;
         let hardware = 1 + below(4);
         let mut modules: Vec<(Vec<usize>, Vec<usize>)> = Vec::new();
-        for at in 0..3 + below(5) {
-            let own = if below(4) > 0 { vec![below(hardware as u32)] } else { vec![] };
+        for at in 0..many {
+            let own = if below(standing) > 0 { vec![below(hardware as u32)] } else { vec![] };
             let needs = if at > 0 && below(2) == 0 { vec![below(at as u32)] } else { vec![] };
             modules.push((own, needs));
         }
@@ -80,7 +96,7 @@ impl Drawn {
             }
         }
         let mut failures = Vec::new();
-        for at in 0..modules.len() + 2 {
+        for at in 0..rows {
             // Mostly each module fails by itself, and mildly.
             let mut severity = || [0, 1, 1, 2, 3][if below(4) > 0 { below(3) } else { below(5) }];
             let severity = [severity(), severity()];
@@ -169,17 +185,33 @@ impl Drawn {
     }
 
     /// Whether a module works after these failures, looked up from the top down.
-    fn works(&self, module: usize, failed: u32) -> bool {
+    fn works(&self, module: usize, failed: &[usize]) -> bool {
         let (hardware, needs) = &self.modules[module];
-        let mut failed_ones = (0..self.failures.len()).filter(|it| failed >> it & 1 == 1);
-        failed_ones.all(|it| {
-            let it = &self.failures[it];
+        failed.iter().all(|it| {
+            let it = &self.failures[*it];
             !it.modules.contains(&module) && !hardware.iter().any(|own| it.hardware.contains(own))
         }) && needs.iter().all(|it| self.works(*it, failed))
     }
 
-    fn runs(&self, configuration: usize, failed: u32) -> bool {
+    fn runs(&self, configuration: usize, failed: &[usize]) -> bool {
         self.configurations[configuration].1.iter().all(|it| self.works(*it, failed))
+    }
+
+    /// One failure for each set of modules that stops working with some.
+    #[must_use]
+    pub fn losses(&self) -> Vec<usize> {
+        let gone = |failure: usize| -> Vec<bool> {
+            (0..self.modules.len()).map(|it| self.works(it, &[failure])).collect()
+        };
+        let mut known = vec![vec![true; self.modules.len()]];
+        (0..self.failures.len())
+            .filter(|it| {
+                let gone = gone(*it);
+                let is_new = !known.contains(&gone);
+                known.push(gone);
+                is_new
+            })
+            .collect()
     }
 
     fn stands(&self, module: usize) -> bool {
@@ -195,18 +227,26 @@ impl Drawn {
             // The rest is not looked at then.
             return BTreeSet::from(["stands on no hardware"]);
         }
-        let sets = 0..1_u32 << self.failures.len();
+        // What takes the same modules counts once; of what takes the same one after another all.
+        let losses = self.losses();
+        let set = |bits: u32| -> Vec<usize> {
+            let chosen = losses.iter().enumerate().filter(|it| bits >> it.0 & 1 == 1);
+            chosen.map(|it| *it.1).collect()
+        };
+        let sets: Vec<Vec<usize>> = (0..1_u32 << losses.len()).map(set).collect();
         for (at, (objective, _)) in self.configurations.iter().enumerate() {
             let before = (0..at).filter(|it| self.configurations[*it].0 == *objective);
             let before: Vec<_> = before.collect();
-            let is_best = |set| self.runs(at, set) && before.iter().all(|it| !self.runs(*it, set));
-            if !sets.clone().any(is_best) {
+            let is_best = |set: &Vec<usize>| {
+                self.runs(at, set) && before.iter().all(|it| !self.runs(*it, set))
+            };
+            if !sets.iter().any(is_best) {
                 faults.insert("never runs");
             }
         }
         let in_vain = |(at, it): (usize, &Failure)| {
             let loses = !it.modules.is_empty() || !it.hardware.is_empty();
-            it.restarts && loses && self.works(self.restarted(at), 1 << at)
+            it.restarts && loses && self.works(self.restarted(at), &[at])
         };
         if self.failures.iter().enumerate().any(in_vain) {
             faults.insert("starts");

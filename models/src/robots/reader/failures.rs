@@ -26,21 +26,25 @@ pub(super) fn failures(mut fields: Fields<'_>, names: &mut Names) -> Option<Vec<
     let row = failure(fields, names, has_each);
     let count = each.as_ref().map_or(1, |it| it.len().max(1));
     names.at.failures.extend(std::iter::repeat_n(span, count));
-    let ((row, times), each) = (row?, each?);
+    let ((row, own), each) = (row?, each?);
     if each.is_empty() {
         return Some(vec![row]);
     }
     let of = |module: usize| Failure {
         id: format!("{}.{}", row.id, names.modules.get(module).map_or("", |it| it)),
         loses: row.loses.union(Parts { hardware: 0, modules: 1 << module }),
-        restarts: row.restarts.or(times.map(|times| Restarts { module, times })),
+        restarts: row.restarts.or(own.map(|it| Restarts { module, ..it })),
         ..row.clone()
     };
     Some(each.into_iter().map(of).collect())
 }
 
-/// A row, and how often the module of each of its failures is started anew.
-fn failure(mut fields: Fields<'_>, names: &Names, has_each: bool) -> Option<(Failure, Option<u8>)> {
+/// A row, and the restart of the module of each of its failures, in which that module is left open.
+fn failure(
+    mut fields: Fields<'_>,
+    names: &mut Names,
+    has_each: bool,
+) -> Option<(Failure, Option<Restarts>)> {
     let id = fields.id("id");
     let function = words(&mut fields, "function");
     let item = words(&mut fields, "item");
@@ -167,12 +171,12 @@ fn mean(fields: &Fields<'_>, text: &Spanned<String>) -> Option<u64> {
     mean
 }
 
-/// A restart of the module that it names, or else, so often, of that of each failure of the row.
+/// A restart of the module that it names, or else of that of each failure of the row.
 fn restart(
     mut fields: Fields<'_>,
-    names: &Names,
+    names: &mut Names,
     has_each: bool,
-) -> Option<(Option<Restarts>, Option<u8>)> {
+) -> Option<(Option<Restarts>, Option<Restarts>)> {
     let known = || names.modules.iter().map(String::as_str);
     let module = if has_each && !fields.has("module") {
         Some(None)
@@ -181,10 +185,33 @@ fn restart(
         module.and_then(|it| fields.index_of(&it, "module", known())).map(Some)
     };
     let times = fields.integer("times", RESTARTS);
+    let mends = fields.optional_flag("mends");
+    fields.knows("shared");
+    let shared = if fields.has("shared") {
+        fields.id("shared").zip(times).map(|it| Some(shared(&fields, it, names)))
+    } else {
+        Some(None)
+    };
     fields.finish();
-    let times = times?;
+    let (times, shared, mends) = (times?, shared?, mends.ok()?.unwrap_or(false));
     Some(match module? {
-        Some(module) => (Some(Restarts { module, times }), None),
-        None => (None, Some(times)),
+        Some(module) => (Some(Restarts { module, times, shared, mends }), None),
+        None => (None, Some(Restarts { module: 0, times, shared, mends })),
     })
+}
+
+/// The name under which restarts count together: all of one name allow as many.
+fn shared(fields: &Fields<'_>, (name, times): (Spanned<String>, u8), names: &mut Names) -> usize {
+    let known = names.shared.iter().position(|it| it.0 == name.value);
+    match known.and_then(|it| names.shared.get(it)) {
+        None => names.shared.push((name.value, times)),
+        Some((_, before)) if *before != times => {
+            let name = quoted(&name.value);
+            let message = format!("{name} is counted to {before} before, and to {times} here");
+            let it = Diagnostic::new(fields.span_of("times"), message, "another number");
+            fields.report(it.help("write the same number, or another name"));
+        }
+        Some(_) => {}
+    }
+    known.unwrap_or(names.shared.len().saturating_sub(1))
 }

@@ -103,8 +103,12 @@ impl Draft {
         self.with_complement(name, Role::Shared, 0, "");
     }
 
-    /// A store of tokens and its complement, which is empty at the start.
+    /// A store of tokens and its complement, which is empty at the start; once, if it is asked
+    /// twice.
     pub(super) fn store(&mut self, name: &str, spent: &str, tokens: u32, doc: &str) {
+        if self.net.places.iter().any(|it| it.name == name) {
+            return;
+        }
         let of = PlaceId(self.net.places.len() as u32);
         let store = OwnedPlace::new(name, tokens).at_most(tokens).doc(doc);
         self.add(OwnedPlace { role: Role::Data, ..store });

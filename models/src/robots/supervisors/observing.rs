@@ -23,16 +23,22 @@ pub(super) fn observation(robot: &Robot) -> OwnedNet {
         let mut line = Line::on(name.clone(), format!("flag_{name}")).goes("Ready", "Ready");
         if let Some(it) = report.restarts {
             let module = robot.modules.get(it.module).map_or("", |it| it.name.as_str());
-            let doc = format!("How often {module} may still be started anew.");
+            let shared = it.shared.and_then(|it| robot.shared.get(it)).map(|it| word(it));
+            let doc = match &shared {
+                Some(_) => "How often a module may still be started anew.".to_owned(),
+                None => format!("How often {module} may still be started anew."),
+            };
+            let of = shared.unwrap_or_else(|| name.clone());
             let restart = format!("restart_{}", word(module));
-            let it = Tried { output: restart, done: "restarts", times: it.times, doc };
+            let it = Tried { output: restart, done: "restarts", of, times: it.times, doc };
             line = it.before(line, &mut net, &name);
         }
         if let Some(it) = &report.sets {
             let set = format!("set_{name}");
             line = if let Some(times) = it.times {
                 let doc = "How often a setting alone may still be the answer.".to_owned();
-                Tried { output: set, done: "sets", times, doc }.before(line, &mut net, &name)
+                let of = name.clone();
+                Tried { output: set, done: "sets", of, times, doc }.before(line, &mut net, &name)
             } else {
                 net.output(&set, "");
                 line.emits(set)
@@ -64,6 +70,8 @@ pub(super) fn observation(robot: &Robot) -> OwnedNet {
 struct Tried {
     output: String,
     done: &'static str,
+    /// The name under which it is counted.
+    of: String,
     times: u8,
     doc: String,
 }
@@ -72,8 +80,8 @@ impl Tried {
     /// Tries it under the conditions of a line; returns the line with the condition that it was
     /// tried as often as it may.
     fn before(self, line: Line, net: &mut Draft, name: &str) -> Line {
-        let Self { output, done, times, doc } = self;
-        let (left, spent) = (format!("{done}_{name}"), format!("{done}_spent_{name}"));
+        let Self { output, done, of, times, doc } = self;
+        let (left, spent) = (format!("{done}_{of}"), format!("{done}_spent_{of}"));
         net.store(&left, &spent, u32::from(times), &doc);
         net.output(&output, "");
         let first = line.clone().named(format!("{name}_{done}"));
