@@ -95,6 +95,18 @@ pub(crate) fn way(
     }))
 }
 
+/// The drawing of a name, or in a file.
+///
+/// # Errors
+/// When it cannot be read, or is a map.
+pub(crate) fn drawing(name: &str) -> Result<Floor, Failure> {
+    match read(name, None)? {
+        Read::Drawing(it) => Ok(*it),
+        Read::Map { .. } => Err(Failure::new(format!("{} is a map, without places", quoted(name)))
+            .help("give `office`, or a drawing: `cotama new floor NAME` begins one")),
+    }
+}
+
 /// The floor that comes with the program.
 const OFFICE: &str = "office";
 

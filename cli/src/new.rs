@@ -4,11 +4,11 @@
 //! The texts are the files in `templates/`, in which the name stands for the one that is wanted.
 
 mod board;
+mod mission;
 
 use crate::answers::new::NewAnswer;
 use crate::args::{NewArgs, NewKind};
 use crate::exit::{Exit, Failure};
-use crate::mission;
 use crate::names::quoted;
 use crate::output::{self, Screen};
 use crate::render::style::NAME;
@@ -45,7 +45,6 @@ macro_rules! template {
 
 /// Templates of one file: its text and the name in it.
 const MISSION: (&str, &str) = (include_str!("../templates/mission.toml"), "my-mission");
-const ROBOT_MISSION: &str = include_str!("../templates/robot_mission.toml");
 const ROBOT: (&str, &str) = (include_str!("../templates/robot.toml"), "my-robot");
 const FLOOR: (&str, &str) = (include_str!("../templates/floor.toml"), "my-floor");
 const FMECA: (&str, &str) = (include_str!("../templates/fmeca.toml"), "my-fmeca");
@@ -97,6 +96,10 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
         let message = "--robot is for missions: it says whose supervisors decide";
         return Err(Failure::new(message).help("leave it out"));
     }
+    if args.floor.is_some() && args.robot.is_none() {
+        let message = "--floor is for missions of a robot: it says what the mission goes over";
+        return Err(Failure::new(message).help("add `--robot`, or leave it out"));
+    }
     let (files, next) = match args.kind {
         NewKind::Mission | NewKind::Robot | NewKind::Floor | NewKind::Fmeca => {
             let what = one_file(args.kind);
@@ -113,7 +116,7 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
                 _ => FMECA,
             };
             let text = match &args.robot {
-                Some(robot) => mission_of(robot, path.parent())?,
+                Some(robot) => mission::text(robot, args.floor.as_deref(), path.parent())?,
                 None => text.to_owned(),
             };
             output::file(&file, text.replace(own, name).as_bytes())?;
@@ -177,28 +180,6 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
     }
     screen.print(&text)?;
     Ok(Exit::Success)
-}
-
-/// The text of a mission of this robot, in a file of that folder.
-fn mission_of(name: &str, folder: Option<&Path>) -> Result<String, Failure> {
-    let file = mission::robot(name, None)?;
-    let robot = file.robot();
-    if robot.body.is_none() {
-        let message = format!("the robot `{}` has no [body], so nothing moves it", robot.name);
-        return Err(Failure::new(message).help("add one: `cotama new robot NAME` writes one"));
-    }
-    let path = match folder.filter(|it| !it.as_os_str().is_empty()) {
-        Some(_) if file.source() != robot.name => {
-            let whole = fs::canonicalize(name).unwrap_or_else(|_| PathBuf::from(name));
-            whole.display().to_string()
-        }
-        _ => name.to_owned(),
-    };
-    let failure = robot.failures.first().map(|it| it.id.as_str());
-    let (text, events) = ROBOT_MISSION.split_once("[run]\n").unwrap_or((ROBOT_MISSION, ""));
-    let text = text.replace("ROBOT", &path);
-    let events = failure.map(|it| format!("[run]\n{}", events.replace("FAILURE", it)));
-    Ok(text + &events.unwrap_or_default())
 }
 
 impl Template {

@@ -109,7 +109,10 @@ fn a_mission_from_place_to_place_runs_as_the_same_one_in_lengths() {
             folder.cotama(&["run", file, "--no-report", "--trace", &trace, "--json"]).json(0);
         let replay = folder.cotama(&["replay", &trace]);
         assert!(replay.stdout.contains("identical: the run was the same again"), "{file}");
-        answer["run"].clone()
+        let mut answer = answer;
+        answer["trace"] = json!(null);
+        assert_eq!((&answer["outcome"], &answer["x_mm"]), (&json!("completed"), &json!(40_748)));
+        answer
     };
     let plan = folder.cotama(&["plan", "rounds.toml", "--json"]).json(0);
     let rows = plan["activities"].as_array().unwrap();
@@ -140,6 +143,23 @@ fn a_mission_from_place_to_place_runs_as_the_same_one_in_lengths() {
     }
     folder.write("line.toml", text);
     assert_eq!(run("rounds.toml"), run("line.toml"));
+}
+
+#[test]
+fn a_new_mission_goes_over_a_new_floor_and_over_the_office() {
+    let folder = Folder::new("floor_new_mission");
+    assert_eq!(folder.cotama(&["new", "floor", "shop"]).code, Some(0));
+    for (name, robot, floor) in
+        [("tour", "transport", "office"), ("round", "p3dx-delivery", "shop.toml")]
+    {
+        let new = folder.cotama(&["new", "mission", name, "--robot", robot, "--floor", floor]);
+        assert_eq!(new.code, Some(0), "{}", new.stderr);
+        let run = folder.cotama(&["run", &format!("{name}.toml"), "--no-report", "--json"]);
+        assert_eq!(run.json(0)["outcome"], "completed", "{name}");
+    }
+    let alone = folder.cotama(&["new", "mission", "hall", "--floor", "office"]);
+    assert_eq!(alone.code, Some(2));
+    assert!(alone.stderr.contains("--floor is for missions of a robot"), "{}", alone.stderr);
 }
 
 #[test]

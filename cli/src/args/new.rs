@@ -22,6 +22,7 @@ Examples:
   $ cotama new mission hall && cotama plan hall.toml && cotama run hall.toml
   $ cotama new robot cart && cotama check cart.toml
   $ cotama new mission round --robot cart.toml && cotama run round.toml
+  $ cotama new mission tour --robot transport --floor office && cotama run tour.toml
   $ cotama new fmeca arm && cotama fmeca arm.toml --diagnosability
   $ cotama new net gripper         # then: cd gripper && cargo test
   $ cotama new net hand && cotama new board hand
@@ -60,6 +61,9 @@ pub(crate) struct NewArgs {
     /// The robot of a mission, by name or as a file: its supervisors decide
     #[arg(long)]
     pub(crate) robot: Option<String>,
+    /// The floor that a mission of a robot goes over: `office`, or a drawing
+    #[arg(long)]
+    pub(crate) floor: Option<String>,
     #[command(flatten)]
     pub(crate) json: Json,
 }
