@@ -150,7 +150,7 @@ fn a_file_is_written_as_a_whole_or_left_as_it_was() {
 fn a_system_is_exported_as_one_net() {
     let folder = Folder::new("export_system");
     for format in ["pnml", "json"] {
-        is_still_the_delivery_robot(&folder, format);
+        is_still_the_robot(&folder, "delivery", format);
     }
     let any = ["export", "delivery", "--semantics", "interleaving", "--format", "json"];
     assert!(folder.cotama(&any).stdout.contains("ls.start_drive.room"));
@@ -161,13 +161,13 @@ fn a_system_is_exported_as_one_net() {
 #[test]
 #[ignore = "a minute: CI runs it"]
 fn a_system_is_exported_with_its_instants() {
-    is_still_the_delivery_robot(&Folder::new("export_instants"), "net");
+    is_still_the_robot(&Folder::new("export_instants"), "transport", "net");
 }
 
 /// Asks the exported file what holds of the system.
-fn is_still_the_delivery_robot(folder: &Folder, format: &str) {
-    let file = format!("delivery.{format}");
-    let written = folder.cotama(&["export", "delivery", "--output", &file]);
+fn is_still_the_robot(folder: &Folder, robot: &str, format: &str) {
+    let file = format!("{robot}.{format}");
+    let written = folder.cotama(&["export", robot, "--output", &file]);
     assert_eq!(written.code, Some(0), "{written:?}");
     let property = "AG (round & gs.Safe -> ls.Idle)";
     let result =
