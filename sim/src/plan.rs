@@ -47,14 +47,14 @@ impl Progress {
     }
 }
 
-/// What becomes of the plan in force when it is looked at.
+/// The fate of the plan in force when it is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Assessed {
-    /// It goes on.
+    /// The plan goes on.
     Keeps,
     /// A new plan is in force.
     Planned,
-    /// It does not hold, for this cause, and there is no other.
+    /// The plan does not hold, for this cause, and there is no other.
     Fails(PlanCause, Reason),
 }
 

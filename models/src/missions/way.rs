@@ -79,9 +79,9 @@ pub struct Way {
     pub text: Arc<str>,
     /// The names that this is the answer to.
     pub asked: Asked,
-    /// What is wrong with the place at which it starts.
+    /// The problem of the place at which it starts, if there is one.
     pub start: Result<(), String>,
-    /// What is wrong with the doors.
+    /// The problem of the doors, if there is one.
     pub doors: Result<(), String>,
     /// The way to each place of [`Asked::to`]; an empty reason where it starts at a place that is
     /// wrong itself.
@@ -95,7 +95,7 @@ pub struct Way {
 pub struct Leg {
     /// The corners of the way in mm, from the left lower corner of the floor.
     pub points: Vec<[i32; 2]>,
-    /// Its length.
+    /// Length of the way.
     pub length: Millimetres,
 }
 
@@ -108,7 +108,7 @@ impl Way {
         points
     }
 
-    /// Returns its whole length.
+    /// Returns the length of the whole way.
     pub fn length(&self) -> Millimetres {
         Millimetres(self.legs.iter().flatten().map(|it| it.length.0).sum())
     }

@@ -22,9 +22,9 @@ pub struct FloorText {
 /// The way from one place to the next.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LegText {
-    /// Its length.
+    /// Length.
     pub length_mm: u64,
-    /// Its corners, from the left lower corner of the floor.
+    /// Corners, from the left lower corner of the floor.
     pub points_mm: Vec<[i32; 2]>,
 }
 

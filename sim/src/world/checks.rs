@@ -60,7 +60,7 @@ impl World<'_> {
         [time_ms.min(MAX_AMOUNT), energy_mj.min(MAX_AMOUNT)]
     }
 
-    /// How far the mission has come.
+    /// Returns the progress of the mission.
     pub(super) fn progress(&self) -> Progress {
         let first = self.activity + usize::from(self.done);
         let (rest, cost) = if self.done {

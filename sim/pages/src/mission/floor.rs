@@ -113,7 +113,7 @@ fn place(corners: &[Corner], x_mm: u64, at: impl Fn([i32; 2]) -> [f64; 2]) -> [f
     [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * share)
 }
 
-/// Where the robot is when, and what runs: as JSON.
+/// Places of the robot over time, and the configurations that run: as JSON.
 fn moments(view: &View<'_>) -> String {
     let every = view.samples.len().div_ceil(MOST).max(1);
     let last = view.samples.len().saturating_sub(1);
