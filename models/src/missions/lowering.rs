@@ -4,23 +4,15 @@ use super::definition::{Definition, Hardware, Robot, Task, Tio};
 use super::diagnostic::Diagnostic;
 use super::reader::Sink;
 use super::terms::{MotionPower, harmless_speed};
-use super::under::{FORMAT_2, Under};
+use super::under::{Under, second};
 use crate::robots::{self, Mode, Parts, RobotFile};
 use cotama_core::hardware::{Equipment, MAX_KINDS};
 use cotama_core::units::{Millijoules, Milliwatts};
 use std::ops::Range;
 
-/// Returns whether a text is of the second format, as far as its format can be read.
-pub(super) fn is_second(text: &str) -> bool {
-    let file: Option<toml::Table> = text.parse().ok();
-    file.and_then(|it| Some(it.get("format")?.as_str()? == FORMAT_2)).unwrap_or(false)
-}
-
 /// Returns the robot that a text of the second format names.
 pub(super) fn named(text: &str) -> Option<String> {
-    let file: toml::Table = text.parse().ok()?;
-    let second = file.get("format")?.as_str()? == FORMAT_2;
-    if second { Some(file.get("robot")?.as_str()?.to_owned()) } else { None }
+    Some(second(text)?.get("robot")?.as_str()?.to_owned())
 }
 
 /// The parts of a mission that its robot gives.

@@ -27,7 +27,7 @@ use super::lowering;
 use super::reader::{self, Sink};
 use super::scenario::{Constraint, Scenario};
 use super::supervised;
-use super::under::{FORMAT_2, Under};
+use super::under::{FORMAT_2, Under, second};
 use super::way::Way;
 use crate::robots::{Moment, RobotFile, supervisors::Step};
 use std::ops::Deref;
@@ -84,10 +84,11 @@ impl Deref for Unfolded {
 }
 
 impl Mission {
-    /// Reads a mission file. `source_name` is its name in messages.
+    /// Reads a mission file. `source_name` is its name in messages. A mission over a floor needs
+    /// [`Mission::parse_on`].
     ///
     /// # Errors
-    /// All errors of the file, with their places.
+    /// All errors of the file, with their places; of one that names a floor that there is none.
     pub fn parse(source_name: &str, text: &str) -> Result<Self, MissionErrors> {
         let robot = Self::robot_of(text).and_then(|it| RobotFile::shipped(&it));
         Self::parse_under(source_name, text, robot)
@@ -99,10 +100,12 @@ impl Mission {
     }
 
     /// Reads a mission file whose robot was read before: the one that a file of [`FORMAT_2`] names,
-    /// or one whose supervisors are to decide in a plain mission of [`FORMAT`].
+    /// or one whose supervisors are to decide in a plain mission of [`FORMAT`]. A mission over a
+    /// floor needs [`Mission::parse_on`].
     ///
     /// # Errors
-    /// All errors of the file, with their places; for a plain mission also that it is not plain.
+    /// All errors of the file, with their places; for a plain mission also that it is not plain, of
+    /// one that names a floor that there is none.
     ///
     /// ```
     /// use cotama_models::missions::{Mission, embedded};
@@ -121,7 +124,8 @@ impl Mission {
         Self::parse_on(source_name, text, robot, None)
     }
 
-    /// Reads a mission file, with the way that its floor answers to [what it asks](super::Asked).
+    /// Reads a mission file, with the way that its floor answers to [what it asks](super::Asked);
+    /// of a mission that names no floor, the way is not looked at.
     ///
     /// # Errors
     /// All errors of the file, with their places; also those of the way.
@@ -132,7 +136,7 @@ impl Mission {
         way: Option<&Way>,
     ) -> Result<Self, MissionErrors> {
         let sink = Sink::default();
-        let definition = if lowering::is_second(text) {
+        let definition = if second(text).is_some() {
             let robot = robot.as_ref();
             reader::document(text, &sink, FORMAT_2, |root| reader::definition_of(root, robot, way))
         } else {

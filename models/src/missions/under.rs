@@ -5,6 +5,14 @@ use crate::robots::RobotFile;
 /// The format of missions of a robot that has a file of its own.
 pub const FORMAT_2: &str = "panorama-mission/2";
 
+/// Returns the keys of a text of the second format; `None` of another one, as far as its format can
+/// be read.
+pub(super) fn second(text: &str) -> Option<toml::Table> {
+    let file: toml::Table = text.parse().ok()?;
+    let is_second = file.get("format")?.as_str()? == FORMAT_2;
+    is_second.then_some(file)
+}
+
 /// A robot from a file whose supervisors decide while a mission runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Under {

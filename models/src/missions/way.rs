@@ -5,6 +5,7 @@
 //! along its path. [`Asked::of`] reads the names, whoever has the floor plans the [`Way`] between
 //! them, and the reader of missions makes lengths of it: all that follows stays on the path.
 
+use super::under::second;
 use cotama_core::units::Millimetres;
 use std::ops::Range;
 use std::sync::Arc;
@@ -23,6 +24,7 @@ use std::sync::Arc;
 /// let asked = Asked::of(text).unwrap();
 /// assert_eq!((asked.floor.as_str(), asked.from.as_str()), ("office", "dock"));
 /// assert_eq!((&asked.to[..], &asked.zones[..]), (&["lab".into()][..], &["corridor".into()][..]));
+/// assert_eq!(Asked::of(&text.replace("mission/2", "mission/1")), None);
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Asked {
@@ -41,10 +43,11 @@ pub struct Asked {
 }
 
 impl Asked {
-    /// Reads the names; `None` of a mission that names no floor. What is no name is left out: the
-    /// reader of missions reports it.
+    /// Reads the names; `None` of a mission that names no floor, as one of another format than
+    /// [`FORMAT_2`](super::FORMAT_2). Values that are no names are left out: the reader of missions
+    /// reports them.
     pub fn of(text: &str) -> Option<Self> {
-        let file: toml::Table = text.parse().ok()?;
+        let file = second(text)?;
         let word = |table: &toml::Table, key: &str| Some(table.get(key)?.as_str()?.to_owned());
         let words = |key: &str| {
             let all = file.get(key).and_then(|it| it.as_array());
