@@ -1,7 +1,7 @@
 //! How a command ends, and what is said when it cannot do its work.
 
 use crate::file_errors::FileErrors;
-use cotama_models::missions::MissionErrors;
+use cotama_models::missions::{MissionErrors, Refusal};
 use cotama_verification::pnml::PnmlErrors;
 use std::process::ExitCode;
 
@@ -69,6 +69,13 @@ fn told(message: String) -> (String, Option<String>) {
     match message.trim_end().rsplit_once("\n  help: ") {
         Some((message, help)) => (message.to_owned(), Some(help.to_owned())),
         None => (message, None),
+    }
+}
+
+/// A floor refuses a name, or a way over it.
+impl From<Refusal> for Failure {
+    fn from(Refusal { message, help }: Refusal) -> Self {
+        Self::Message { file: None, message, help }
     }
 }
 

@@ -7,17 +7,15 @@ use crate::args::FloorArgs;
 use crate::exit::{Exit, Failure};
 use crate::input;
 use crate::kind::{self, Kind};
-use crate::names::{near, quoted};
+use crate::names::quoted;
 use crate::output::{self, Screen};
 use crate::render;
 use crate::render::style::NAME;
 use cotama_floor::map_server::{Map, Metadata};
-use cotama_floor::{
-    Cell, Floor, Grid, Ground, Needs, Path as Way, Planner, Point, RouteError, Surface, Version,
-    embedded, metres, picture,
-};
-use cotama_models::missions::{Asked, Way as MissionWay};
+use cotama_floor::{Cell, Floor, Grid, Ground, Needs, Surface, embedded, metres, picture};
+use cotama_models::missions::{Asked, NoLeg, Refusal, Way};
 use cotama_models::robots::RobotFile;
+use std::ops::Range;
 use std::path::Path;
 
 /// The largest drawing, and the largest image of a map.
@@ -30,6 +28,15 @@ enum Read {
     Map { name: String, grid: Box<Grid> },
 }
 
+impl Read {
+    fn ground(&self) -> Ground<'_> {
+        match self {
+            Self::Drawing(it) => Ground::Drawing(it),
+            Self::Map { grid, .. } => Ground::Map(grid),
+        }
+    }
+}
+
 /// Shows a floor, or a path over it.
 pub(crate) fn floor(args: &FloorArgs, screen: &Screen) -> Result<Exit, Failure> {
     if let Some(path) = &args.output {
@@ -39,25 +46,28 @@ pub(crate) fn floor(args: &FloorArgs, screen: &Screen) -> Result<Exit, Failure> 
             return Err(Failure::new(message).help("end the name in .svg"));
         }
     }
-    let read = read(&args.floor, Some(screen))?;
-    let found = match (&args.from, &args.to) {
-        (Some(from), Some(to)) => Some(found(&read, args, from, to)?),
-        _ => None,
+    let read = match read(&args.floor, Some(screen))? {
+        Read::Drawing(it) => Read::Drawing(Box::new(it.with_doors(&args.open, &args.close)?)),
+        map @ Read::Map { .. } => map,
     };
-    let (path, no_path) = match found {
-        Some(Ok(it)) => (Some(it), None),
-        Some(Err(why)) => (None, Some(why)),
-        None => (None, None),
+    let (path, no_path) = match (&args.from, &args.to) {
+        (Some(from), Some(to)) => match found(&read, args, from, to)? {
+            Ok(it) => (Some(it), None),
+            Err(why) => (None, Some(why)),
+        },
+        _ => (None, None),
     };
     if let Some(file) = &args.output {
+        let corners = path.iter().flat_map(|it| &it.corners_mm).map(|it| metres(*it));
+        let way = cotama_floor::Path::new(corners.collect());
         let drawn = match &read {
-            Read::Drawing(it) => picture::floor(&with_doors(it, args)?, path.as_ref()),
-            Read::Map { name, grid } => picture::grid(name, grid, path.as_ref()),
+            Read::Drawing(it) => picture::floor(it, way.as_ref()),
+            Read::Map { name, grid } => picture::grid(name, grid, way.as_ref()),
         };
         output::file(file, drawn.as_bytes())?;
         screen.note(&format!("written: {NAME}{}{NAME:#}", file.display()));
     }
-    let answer = answer(&read, args, path.as_ref(), no_path)?;
+    let answer = answer(&read, path, no_path);
     if args.json.json {
         Screen::json(&answer)?;
     } else {
@@ -75,10 +85,9 @@ pub(crate) fn way(
     asked: Asked,
     folder: Option<&Path>,
     robot: Option<&RobotFile>,
-) -> Result<Option<MissionWay>, Failure> {
+) -> Result<Option<Way>, Failure> {
     let radius = robot.and_then(|it| it.robot().body.as_ref()).map(|it| it.radius.0);
-    let of_robot = |it: u64| Needs { radius_m: it as f64 / 1_000.0, ..Needs::default() };
-    let needs = radius.map_or(Needs::default(), of_robot);
+    let needs = radius.map_or(Needs::default(), needs);
     let beside = folder.map(|it| it.join(&asked.floor)).filter(|it| it.exists());
     let name = match beside {
         Some(file) => file.display().to_string(),
@@ -89,10 +98,7 @@ pub(crate) fn way(
         OFFICE => embedded::OFFICE.text.to_owned(),
         file => input::text(file, "a floor", FLOOR_BYTES)?,
     };
-    Ok(Some(match read(&name, None)? {
-        Read::Drawing(floor) => Ground::Drawing(&floor).way(&name, &text, asked, needs),
-        Read::Map { grid, .. } => Ground::Map(&grid).way(&name, &text, asked, needs),
-    }))
+    Ok(Some(read(&name, None)?.ground().way(&name, &text, asked, needs)))
 }
 
 /// The drawing of a name, or in a file.
@@ -144,141 +150,76 @@ fn map(name: &str, screen: Option<&Screen>) -> Result<Read, Failure> {
     Ok(Read::Map { name, grid: Box::new(grid) })
 }
 
-/// A drawing with doors opened and closed as it is asked for.
-fn with_doors(floor: &Floor, args: &FloorArgs) -> Result<Floor, Failure> {
-    let mut floor = floor.clone();
-    for (name, is_open) in
-        args.open.iter().map(|it| (it, true)).chain(args.close.iter().map(|it| (it, false)))
-    {
-        let Some(door) = floor.doors.iter_mut().find(|it| it.name == *name) else {
-            let known: Vec<_> = floor.doors.iter().map(|it| it.name.as_str()).collect();
-            return Err(unknown("door", name, &known));
-        };
-        door.is_open = is_open;
-    }
-    Ok(floor)
-}
-
-fn unknown(what: &str, name: &str, known: &[&str]) -> Failure {
-    let guess = near(name, known.iter().copied())
-        .map_or_else(String::new, |it| format!("; did you mean {}?", quoted(it)));
-    let failure = Failure::new(format!("there is no {what} {}{guess}", quoted(name)));
-    failure.help(format!("known: {}", known.join(", ")))
-}
-
-/// A place by its name, or as X,Y in mm.
-fn place(floor: Option<&Floor>, name: &str) -> Result<Point, Failure> {
-    if let Some(it) = floor.and_then(|it| it.place(name)) {
-        return Ok(metres(it.at));
-    }
-    let numbers = name.split_once(',').map(|(x, y)| (x.trim().parse::<i32>(), y.trim().parse()));
-    match (numbers, floor) {
-        (Some((Ok(x), Ok(y))), _) => Ok(metres([x, y])),
-        (_, Some(floor)) => {
-            let known: Vec<_> =
-                floor.places.iter().chain(&floor.docks).map(|it| it.name.as_str()).collect();
-            Err(unknown("place", name, &known))
-        }
-        (_, None) => Err(Failure::new(format!("{} is no place of a map", quoted(name)))
-            .help("write X,Y in mm, as 1500,-2000")),
-    }
-}
-
 /// The path from place to place, or why there is none.
 fn found(
     read: &Read,
     args: &FloorArgs,
     from: &str,
     to: &str,
-) -> Result<Result<Way, String>, Failure> {
-    let drawing = match read {
-        Read::Drawing(it) => Some(with_doors(it, args)?),
-        Read::Map { .. } if args.open.is_empty() && args.close.is_empty() => None,
-        Read::Map { .. } => return Err(Failure::new("a map has no doors").help("leave them out")),
+) -> Result<Result<PathRow, String>, Failure> {
+    let all = if let Read::Drawing(it) = read { &it.zones[..] } else { &[] };
+    let asked = Asked {
+        floor: args.floor.clone(),
+        from: from.to_owned(),
+        to: vec![to.to_owned()],
+        open: args.open.clone(),
+        close: args.close.clone(),
+        zones: all.iter().map(|it| it.name.clone()).collect(),
     };
-    let (start, goal) = (place(drawing.as_ref(), from)?, place(drawing.as_ref(), to)?);
-    let segments = drawing.as_ref().map(|it| it.surface(Version::Charted, &[])).transpose();
-    let segments = segments.map_err(|it| Failure::of(&args.floor, it.to_string()))?;
-    let surface: &dyn Surface = match (&segments, read) {
-        (Some(it), _) => it,
-        (None, Read::Map { grid, .. }) => &**grid,
-        (None, Read::Drawing(_)) => return Err(Failure::new("a drawing has no surface")),
+    let way = read.ground().way(&args.floor, "", asked, needs(args.radius));
+    way.doors?;
+    way.start?;
+    // One goal has one leg.
+    let leg = match way.legs.into_iter().next().unwrap_or(Err(NoLeg::Start)) {
+        Ok(it) => it,
+        Err(NoLeg::Goal(why)) => return Err(why.into()),
+        Err(NoLeg::Floor(why)) => return Err(Failure::of(&args.floor, why.message)),
+        Err(why) => return Ok(Err(why.refusal("--open").map_or_else(String::new, in_one_line))),
     };
-    let needs = Needs { radius_m: args.radius as f64 / 1_000.0, ..Needs::default() };
-    let planner = Planner::new(surface, needs).map_err(|it| Failure::new(it.to_string()))?;
-    Ok(match planner.route(start, goal) {
-        Ok(it) => Ok(it),
-        Err(RouteError::Start(room)) => Err(no_room(from, room, args.radius)),
-        Err(RouteError::Goal(room)) => Err(no_room(to, room, args.radius)),
-        Err(_) => {
-            let closed = drawing.iter().flat_map(|it| &it.doors).filter(|it| !it.is_open);
-            let closed: Vec<_> = closed.map(|it| it.name.as_str()).collect();
-            let doors = match &closed[..] {
-                [] => String::new(),
-                all => format!("; closed are {}: `--open` opens one", all.join(", ")),
-            };
-            Err(format!(
-                "nothing leads from {} to {} for this robot{doors}",
-                quoted(from),
-                quoted(to)
-            ))
-        }
-    })
+    let mut zones = Vec::new();
+    for (zone, spans) in way.asked.zones.iter().zip(&way.zones) {
+        let row = |it: &Range<u64>| SpanRow {
+            zone: zone.clone(),
+            x_start_mm: it.start,
+            x_end_mm: it.end,
+        };
+        zones.extend(spans.iter().flatten().map(row));
+    }
+    zones.sort_by_key(|it| (it.x_start_mm, it.x_end_mm));
+    Ok(Ok(PathRow {
+        from: from.to_owned(),
+        to: to.to_owned(),
+        radius_mm: args.radius,
+        length_mm: leg.length.0,
+        corners_mm: leg.points,
+        zones,
+    }))
 }
 
-fn no_room(at: &str, room_m: f64, radius_mm: u64) -> String {
-    let room = (room_m * 1_000.0) as u64;
-    format!("a robot of {radius_mm} mm radius has no room at {}: {room} mm are free", quoted(at))
+fn in_one_line(Refusal { message, help }: Refusal) -> String {
+    [Some(message), help].into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
 
-fn answer(
-    read: &Read,
-    args: &FloorArgs,
-    path: Option<&Way>,
-    no_path: Option<String>,
-) -> Result<FloorAnswer, Failure> {
-    let mm = |it: f64| (it * 1_000.0).round();
-    let (name, title, size, drawing, map) = match read {
+/// A robot of this radius.
+fn needs(radius_mm: u64) -> Needs {
+    Needs { radius_m: radius_mm as f64 / 1_000.0, ..Needs::default() }
+}
+
+fn answer(read: &Read, path: Option<PathRow>, no_path: Option<String>) -> FloorAnswer {
+    let mm = |it: f64| (it * 1_000.0).round() as u64;
+    let (name, title, [width_mm, height_mm], drawing, map) = match read {
         Read::Drawing(it) => {
-            let it = with_doors(it, args)?;
             let size = it.size.map(|it| u64::from(it.unsigned_abs()));
-            (it.name.clone(), it.title.clone(), size, Some(drawn(&it)), None)
+            (it.name.clone(), it.title.clone(), size, Some(drawn(it)), None)
         }
         Read::Map { name, grid } => {
             let bounds = grid.bounds();
-            let size = [mm(bounds.width()) as u64, mm(bounds.height()) as u64];
+            let size = [mm(bounds.width()), mm(bounds.height())];
             (name.clone(), String::new(), size, None, Some(mapped(grid)))
         }
     };
-    let row = |it: &Way| PathRow {
-        from: args.from.clone().unwrap_or_default(),
-        to: args.to.clone().unwrap_or_default(),
-        radius_mm: args.radius,
-        length_mm: it.length_mm(),
-        corners_mm: it.points().iter().map(|it| [mm(it.x) as i64, mm(it.y) as i64]).collect(),
-        zones: match read {
-            Read::Drawing(floor) => spans(floor, it),
-            Read::Map { .. } => Vec::new(),
-        },
-    };
-    let path = path.map(row);
-    let [width_mm, height_mm] = size;
     let schema = "cotama/floor/1";
-    Ok(FloorAnswer { schema, name, title, width_mm, height_mm, drawing, map, path, no_path })
-}
-
-fn spans(floor: &Floor, path: &Way) -> Vec<SpanRow> {
-    let mm = |it: f64| (it * 1_000.0).round() as u64;
-    let zones = floor.zones.iter().flat_map(|zone| {
-        path.spans(&zone.corners()).into_iter().map(|it| SpanRow {
-            zone: zone.name.clone(),
-            x_start_mm: mm(it.start),
-            x_end_mm: mm(it.end),
-        })
-    });
-    let mut zones: Vec<_> = zones.collect();
-    zones.sort_by_key(|it| (it.x_start_mm, it.x_end_mm));
-    zones
+    FloorAnswer { schema, name, title, width_mm, height_mm, drawing, map, path, no_path }
 }
 
 fn drawn(it: &Floor) -> Drawn {

@@ -78,10 +78,13 @@ fn places_and_doors_that_are_not_there_are_refused_with_near_names() {
     let folder = Folder::new("floor_refused");
     for (arguments, said) in [
         (&["floor", "offices"][..], "there is no floor offices"),
-        (&["floor", "office", "--from", "dok", "--to", "lab"], "did you mean dock?"),
+        (
+            &["floor", "office", "--from", "dok", "--to", "lab"],
+            "unknown place `dok`; did you mean `dock`?",
+        ),
         (
             &["floor", "office", "--from", "dock", "--to", "lab", "--open", "door X"],
-            "there is no door",
+            "unknown door `door X`; did you mean `door A`?",
         ),
         (&["floor", "office", "--output", "x.png"], "a floor is drawn as SVG"),
         (&["floor", "office", "--from", "dock"], "--to"),

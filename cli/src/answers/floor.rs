@@ -80,7 +80,7 @@ pub(crate) struct PathRow {
     pub(crate) radius_mm: u64,
     pub(crate) length_mm: u64,
     /// The corners of the path: x and y in mm.
-    pub(crate) corners_mm: Vec<[i64; 2]>,
+    pub(crate) corners_mm: Vec<[i32; 2]>,
     /// The zones on the path, as a mission has them.
     pub(crate) zones: Vec<SpanRow>,
 }

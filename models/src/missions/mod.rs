@@ -61,4 +61,4 @@ pub use terms::{MotionPower, PlannedFor, harmless_speed};
 #[cfg(feature = "std")]
 pub use under::{FORMAT_2, Under};
 #[cfg(feature = "std")]
-pub use way::{Asked, Leg, Way};
+pub use way::{Asked, Leg, NoLeg, Refusal, Way};

@@ -73,7 +73,29 @@ impl Asked {
     }
 }
 
-/// A way over a floor, or what is wrong with it: each problem with what there is instead.
+/// A refusal of a floor: the cause, and a remedy where there is one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refusal {
+    /// The cause.
+    pub message: String,
+    /// The remedy, in words.
+    pub help: Option<String>,
+}
+
+impl Refusal {
+    /// A refusal without a remedy yet.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self { message: message.into(), help: None }
+    }
+
+    /// The same refusal with a remedy.
+    #[must_use]
+    pub fn help(self, help: impl Into<String>) -> Self {
+        Self { help: Some(help.into()), ..self }
+    }
+}
+
+/// A way over a floor, or the reasons why there is none: an answer to each name that is asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Way {
     /// The name of the floor's file, as in messages.
@@ -83,14 +105,13 @@ pub struct Way {
     /// The names that this is the answer to.
     pub asked: Asked,
     /// The problem of the place at which it starts, if there is one.
-    pub start: Result<(), String>,
+    pub start: Result<(), Refusal>,
     /// The problem of the doors, if there is one.
-    pub doors: Result<(), String>,
-    /// The way to each place of [`Asked::to`]; an empty reason where it starts at a place that is
-    /// wrong itself.
-    pub legs: Vec<Result<Leg, String>>,
+    pub doors: Result<(), Refusal>,
+    /// The way to each place of [`Asked::to`].
+    pub legs: Vec<Result<Leg, NoLeg>>,
     /// The parts of the whole path, in mm, inside each zone of [`Asked::zones`].
-    pub zones: Vec<Result<Vec<Range<u64>>, String>>,
+    pub zones: Vec<Result<Vec<Range<u64>>, Refusal>>,
 }
 
 /// The way from one place to the next.
@@ -100,6 +121,49 @@ pub struct Leg {
     pub points: Vec<[i32; 2]>,
     /// Length of the way.
     pub length: Millimetres,
+}
+
+/// The reason why there is no way from one place to the next.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoLeg {
+    /// The place where it starts is refused: at [`Way::start`], or as the goal of a leg before.
+    Start,
+    /// The floor has no such goal.
+    Goal(Refusal),
+    /// No way over this floor can be planned.
+    Floor(Refusal),
+    /// Nothing leads from the start to the goal.
+    Path {
+        /// The cause.
+        message: String,
+        /// The doors that are closed, one of which may stand in the way.
+        closed: Vec<String>,
+    },
+}
+
+impl NoLeg {
+    /// Returns the refusal that belongs to the goal; `None` where the start has it. `open` is the
+    /// key or the option that opens a door.
+    ///
+    /// ```
+    /// use cotama_models::missions::NoLeg;
+    /// let none = NoLeg::Path { message: "no way".into(), closed: vec!["door D".into()] };
+    /// let help = none.refusal("--open").unwrap().help.unwrap();
+    /// assert_eq!(help, "closed are door D: `--open` opens one");
+    /// assert_eq!(NoLeg::Start.refusal("open"), None);
+    /// ```
+    pub fn refusal(&self, open: &str) -> Option<Refusal> {
+        match self {
+            Self::Start => None,
+            Self::Goal(it) | Self::Floor(it) => Some(it.clone()),
+            Self::Path { message, closed } if closed.is_empty() => Some(Refusal::new(message)),
+            Self::Path { message, closed } => {
+                let closed = closed.join(", ");
+                let help = format!("closed are {closed}: `{open}` opens one");
+                Some(Refusal::new(message).help(help))
+            }
+        }
+    }
 }
 
 impl Way {

@@ -7,7 +7,7 @@ use crate::path::Path;
 use crate::route::{Needs, Planner, RouteError};
 use crate::surface::Surface;
 use cotama_core::units::Millimetres;
-use cotama_models::missions::{Asked, Leg, Way};
+use cotama_models::missions::{Asked, Leg, NoLeg, Refusal, Way};
 use cotama_models::reading::{quoted, unknown};
 use std::ops::Range;
 
@@ -34,46 +34,89 @@ impl Ground<'_> {
     /// let text = embedded::OFFICE.text;
     /// let way = Ground::Drawing(&office).way("office", text, asked, Needs::default());
     /// assert_eq!(way.legs[0].as_ref().unwrap().length.0, 14_507);
-    /// assert!(way.legs[1].as_ref().unwrap_err().starts_with("unknown place `attic`"));
+    /// let none = way.legs[1].as_ref().unwrap_err().refusal("open").unwrap();
+    /// assert_eq!(none.message, "unknown place `attic`");
     /// assert_eq!(way.zones, [Ok(vec![8_304..10_462])]);
     /// ```
     pub fn way(self, source: &str, text: &str, asked: Asked, needs: Needs) -> Way {
-        let (drawing, doors) = match self {
-            Self::Drawing(floor) => match with_doors(floor, &asked) {
-                Ok(it) => (Some(it), Ok(())),
-                Err(why) => (Some(floor.clone()), Err(why)),
-            },
-            Self::Map(_) if asked.open.is_empty() && asked.close.is_empty() => (None, Ok(())),
-            Self::Map(_) => (None, Err("a map has no doors\n  help: leave them out".to_owned())),
+        let answer = match self {
+            Self::Drawing(floor) => of_drawing(floor, &asked, needs),
+            Self::Map(grid) => of_map(grid, &asked, needs),
         };
-        let start = place(drawing.as_ref(), &asked.from);
-        let paths = match &drawing {
-            Some(floor) => match floor.surface(Version::Charted, &[]) {
-                Ok(surface) => paths(&surface, Some(floor), &asked, needs),
-                Err(why) => vec![Err(why.to_string()); asked.to.len()],
-            },
-            None => match self {
-                Self::Map(grid) => paths(grid, None, &asked, needs),
-                Self::Drawing(_) => vec![Err(String::new()); asked.to.len()],
-            },
-        };
-        let zone = |name: &String| match &drawing {
-            Some(floor) => match floor.zones.iter().find(|it| it.name == *name) {
-                Some(zone) => Ok(spans(&zone.corners(), &paths)),
-                None => Err(known("zone", name, floor.zones.iter().map(|it| it.name.as_str()))),
-            },
-            None => Err("a map has no zones\n  help: give `x_start_mm` and `x_end_mm`".to_owned()),
-        };
-        Way {
-            source: source.to_owned(),
-            text: text.into(),
-            start: start.map(|_| ()),
-            doors,
-            zones: asked.zones.iter().map(zone).collect(),
-            legs: paths.iter().map(|it| it.as_ref().map(leg).map_err(Clone::clone)).collect(),
-            asked,
-        }
+        let Answer { start, doors, paths, zones } = answer;
+        let legs = paths.into_iter().map(|it| it.map(|it| leg(&it))).collect();
+        Way { source: source.to_owned(), text: text.into(), asked, start, doors, legs, zones }
     }
+}
+
+impl Floor {
+    /// Returns the floor with these doors open, and those closed.
+    ///
+    /// ```
+    /// use cotama_floor::embedded::OFFICE;
+    /// let office = OFFICE.floor().unwrap();
+    /// let names = |name: &str| vec![name.to_owned()];
+    /// let open = office.with_doors(&names("door D"), &[]).unwrap();
+    /// assert_eq!(open.doors.iter().filter(|it| !it.is_open).count(), 0);
+    /// let none = office.with_doors(&[], &names("dor D")).unwrap_err();
+    /// assert!(none.message.starts_with("unknown door `dor D`; did you mean"));
+    /// ```
+    ///
+    /// # Errors
+    /// When it has no door of such a name.
+    pub fn with_doors(&self, open: &[String], close: &[String]) -> Result<Self, Refusal> {
+        let mut floor = self.clone();
+        let all = open.iter().map(|it| (it, true));
+        for (name, is_open) in all.chain(close.iter().map(|it| (it, false))) {
+            let Some(door) = floor.doors.iter_mut().find(|it| it.name == *name) else {
+                return Err(known("door", name, floor.doors.iter().map(|it| it.name.as_str())));
+            };
+            door.is_open = is_open;
+        }
+        Ok(floor)
+    }
+}
+
+/// The answer to the names, with paths in metres.
+struct Answer {
+    start: Result<(), Refusal>,
+    doors: Result<(), Refusal>,
+    paths: Vec<Result<Path, NoLeg>>,
+    zones: Vec<Result<Vec<Range<u64>>, Refusal>>,
+}
+
+fn of_drawing(floor: &Floor, asked: &Asked, needs: Needs) -> Answer {
+    let (floor, doors) = match floor.with_doors(&asked.open, &asked.close) {
+        Ok(it) => (it, Ok(())),
+        Err(why) => (floor.clone(), Err(why)),
+    };
+    let paths = match floor.surface(Version::Charted, &[]) {
+        Ok(surface) => paths(&surface, Some(&floor), asked, needs),
+        Err(why) => none(asked, &why.to_string()),
+    };
+    let zone = |name: &String| match floor.zones.iter().find(|it| it.name == *name) {
+        Some(zone) => Ok(spans(&zone.corners(), &paths)),
+        None => Err(known("zone", name, floor.zones.iter().map(|it| it.name.as_str()))),
+    };
+    let zones = asked.zones.iter().map(zone).collect();
+    Answer { start: place(Some(&floor), &asked.from).map(|_| ()), doors, paths, zones }
+}
+
+fn of_map(grid: &Grid, asked: &Asked, needs: Needs) -> Answer {
+    let doors = if asked.open.is_empty() && asked.close.is_empty() {
+        Ok(())
+    } else {
+        Err(Refusal::new("a map has no doors").help("leave them out"))
+    };
+    let zone = |_| Err(Refusal::new("a map has no zones").help("give `x_start_mm` and `x_end_mm`"));
+    let zones = asked.zones.iter().map(zone).collect();
+    let paths = paths(grid, None, asked, needs);
+    Answer { start: place(None, &asked.from).map(|_| ()), doors, paths, zones }
+}
+
+/// No path to any place, for one reason.
+fn none(asked: &Asked, why: &str) -> Vec<Result<Path, NoLeg>> {
+    vec![Err(NoLeg::Floor(Refusal::new(why))); asked.to.len()]
 }
 
 /// The paths between the places, each from the one before; after one that fails the next begin at
@@ -83,61 +126,46 @@ fn paths(
     floor: Option<&Floor>,
     asked: &Asked,
     needs: Needs,
-) -> Vec<Result<Path, String>> {
+) -> Vec<Result<Path, NoLeg>> {
     let planner = match Planner::new(surface, needs) {
         Ok(it) => it,
-        Err(why) => return vec![Err(why.to_string()); asked.to.len()],
+        Err(why) => return none(asked, &why.to_string()),
     };
     let from = std::iter::once(&asked.from).chain(&asked.to);
     let path = |(from, to): (&String, &String)| {
-        let goal = place(floor, to)?;
-        // An unknown start is said where it stands.
-        let start = place(floor, from).map_err(|_| String::new())?;
-        planner.route(start, goal).map_err(|why| said(why, floor, [from, to], needs))
+        let goal = place(floor, to).map_err(NoLeg::Goal)?;
+        let start = place(floor, from).map_err(|_| NoLeg::Start)?;
+        planner.route(start, goal).map_err(|why| no_path(why, floor, [from, to], needs))
     };
     from.zip(&asked.to).map(path).collect()
 }
 
 /// Says why there is no way.
-fn said(why: RouteError, floor: Option<&Floor>, [from, to]: [&str; 2], needs: Needs) -> String {
+fn no_path(why: RouteError, floor: Option<&Floor>, [from, to]: [&str; 2], needs: Needs) -> NoLeg {
     let mm = |it: f64| (it * 1_000.0).round();
     let no_room = |at: &str, room: f64| {
-        let (radius, at) = (mm(needs.radius_m), quoted(at));
-        format!("a robot of {radius} mm radius has no room at {at}: {} mm are free", mm(room))
+        // Less than the radius is free, also when it is rounded.
+        let (radius, room, at) = (mm(needs.radius_m), (room * 1_000.0).floor(), quoted(at));
+        let message =
+            format!("a robot of {radius} mm radius has no room at {at}: {room} mm are free");
+        NoLeg::Path { message, closed: Vec::new() }
     };
     match why {
         RouteError::Start(room) => no_room(from, room),
         RouteError::Goal(room) => no_room(to, room),
         RouteError::None(_) => {
             let closed = floor.into_iter().flat_map(|it| &it.doors).filter(|it| !it.is_open);
-            let closed: Vec<_> = closed.map(|it| it.name.as_str()).collect();
-            let message = format!("nothing leads from {} to {}", quoted(from), quoted(to));
-            match &closed[..] {
-                [] => message,
-                all => {
-                    format!("{message}\n  help: closed are {}: `open` opens one", all.join(", "))
-                }
-            }
+            let closed = closed.map(|it| it.name.clone()).collect();
+            let [from, to] = [from, to].map(quoted);
+            let message = format!("nothing leads from {from} to {to} for this robot");
+            NoLeg::Path { message, closed }
         }
-        other => other.to_string(),
+        RouteError::Needs(_) | RouteError::Field(_) => NoLeg::Floor(Refusal::new(why.to_string())),
     }
-}
-
-/// A drawing with doors opened and closed as it is asked for.
-fn with_doors(floor: &Floor, asked: &Asked) -> Result<Floor, String> {
-    let mut floor = floor.clone();
-    let all = asked.open.iter().map(|it| (it, true));
-    for (name, is_open) in all.chain(asked.close.iter().map(|it| (it, false))) {
-        let Some(door) = floor.doors.iter_mut().find(|it| it.name == *name) else {
-            return Err(known("door", name, floor.doors.iter().map(|it| it.name.as_str())));
-        };
-        door.is_open = is_open;
-    }
-    Ok(floor)
 }
 
 /// The place of this name, or at `X,Y` in mm.
-fn place(floor: Option<&Floor>, name: &str) -> Result<Point, String> {
+fn place(floor: Option<&Floor>, name: &str) -> Result<Point, Refusal> {
     if let Some(it) = floor.and_then(|it| it.place(name)) {
         return Ok(metres(it.at));
     }
@@ -146,15 +174,15 @@ fn place(floor: Option<&Floor>, name: &str) -> Result<Point, String> {
         return Ok(metres([x, y]));
     }
     let Some(floor) = floor else {
-        let name = quoted(name);
-        return Err(format!("{name} is no place of a map\n  help: write X,Y in mm, as 1500,-2000"));
+        let it = Refusal::new(format!("{} is no place of a map", quoted(name)));
+        return Err(it.help("write X,Y in mm, as 1500,-2000"));
     };
     Err(known("place", name, floor.places.iter().chain(&floor.docks).map(|it| it.name.as_str())))
 }
 
-fn known<'n>(what: &str, name: &str, all: impl Iterator<Item = &'n str> + Clone) -> String {
+fn known<'n>(what: &str, name: &str, all: impl Iterator<Item = &'n str> + Clone) -> Refusal {
     let (message, help) = unknown(what, name, all);
-    format!("{message}\n  help: {help}")
+    Refusal::new(message).help(help)
 }
 
 fn leg(path: &Path) -> Leg {
@@ -164,7 +192,7 @@ fn leg(path: &Path) -> Leg {
 }
 
 /// The parts of all paths, one after the other, inside a polygon: in mm.
-fn spans(corners: &[Point], paths: &[Result<Path, String>]) -> Vec<Range<u64>> {
+fn spans(corners: &[Point], paths: &[Result<Path, NoLeg>]) -> Vec<Range<u64>> {
     let mut spans: Vec<Range<u64>> = Vec::new();
     let mut before = 0;
     for path in paths.iter().flatten() {

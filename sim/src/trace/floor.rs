@@ -1,7 +1,8 @@
 //! The floor of a mission, and the way over it, in what is stored.
 
 use cotama_core::units::Millimetres;
-use cotama_models::missions::{Asked, Leg, Way};
+use cotama_models::missions::{Asked, Leg, Refusal, Way};
+use cotama_models::reading::quoted;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -33,7 +34,7 @@ impl FloorText {
     pub fn of(way: &Way) -> Self {
         let leg = |it: &Leg| LegText { length_mm: it.length.0, points_mm: it.points.clone() };
         let zones = way.asked.zones.iter().zip(&way.zones);
-        let zone = |(name, spans): (&String, &Result<Vec<Range<u64>>, String>)| {
+        let zone = |(name, spans): (&String, &Result<Vec<Range<u64>>, Refusal>)| {
             let spans = spans.as_ref().ok()?.iter().map(|it| (it.start, it.end)).collect();
             Some((name.clone(), spans))
         };
@@ -53,7 +54,8 @@ impl FloorText {
         let asked = Asked::of(mission).unwrap_or_default();
         let zone = |name: &String| {
             let it = self.zones.iter().find(|it| it.0 == *name);
-            it.map(|it| it.1.iter().map(|it| it.0..it.1).collect()).ok_or_else(String::new)
+            let unknown = || Refusal::new(format!("the zone {} is not stored", quoted(name)));
+            it.map(|it| it.1.iter().map(|it| it.0..it.1).collect()).ok_or_else(unknown)
         };
         Way {
             source: self.source.clone(),

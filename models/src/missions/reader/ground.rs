@@ -4,7 +4,7 @@ use super::entry::Entry;
 use super::fields::Fields;
 use crate::missions::definition::Zone;
 use crate::missions::diagnostic::{Diagnostic, Spanned};
-use crate::missions::way::Way;
+use crate::missions::way::{Refusal, Way};
 use cotama_core::units::Millimetres;
 
 /// Keys whose lengths a floor says.
@@ -67,8 +67,8 @@ impl<'w> Ground<'w> {
         self.at = match leg {
             Some(Ok(leg)) => from.map(|it| Millimetres(it.0 + leg.length.0)),
             Some(Err(why)) => {
-                if !why.is_empty() {
-                    reported(fields, to.span, why);
+                if let Some(why) = why.refusal("open") {
+                    reported(fields, to.span, &why);
                 }
                 None
             }
@@ -135,8 +135,7 @@ fn refuse_lengths(fields: &mut Fields<'_>) {
     }
 }
 
-fn reported(fields: &Fields<'_>, span: std::ops::Range<usize>, why: &str) {
-    let (message, help) = why.split_once("\n  help: ").unwrap_or((why, ""));
-    let it = Diagnostic::new(span, message.to_owned(), "on this floor");
-    fields.report(if help.is_empty() { it } else { it.help(help.to_owned()) });
+fn reported(fields: &Fields<'_>, span: std::ops::Range<usize>, why: &Refusal) {
+    let it = Diagnostic::new(span, why.message.as_str(), "on this floor");
+    fields.report(Diagnostic { help: why.help.clone(), ..it });
 }
