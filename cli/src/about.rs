@@ -34,13 +34,13 @@ use serde::Serialize;
 use serde_json::Value;
 
 /// `cotama table`: the tables of a mission, or the supervisors of a robot, as Rust source.
-pub(crate) fn table(args: &MissionArg) -> Result<Exit, Failure> {
+pub(crate) fn table(args: &MissionArg, screen: &Screen) -> Result<Exit, Failure> {
     if let Some(robot) = robot::robot(&args.mission)? {
         let system = supervisors::system(&robot);
         Screen::raw(supervisors::to_rust(&system).as_bytes())?;
         return Ok(Exit::Success);
     }
-    let mission = mission::load(&args.mission)?;
+    let mission = mission::load(&args.mission, Some(screen))?;
     Screen::raw(mission.scenario().to_rust(&mission.name).as_bytes())?;
     Ok(Exit::Success)
 }

@@ -61,7 +61,7 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
     if let Some(team) = Chosen::of(&args.scenario)? {
         return of_team(args, &team, screen);
     }
-    let mission = mission::load(&args.scenario)?;
+    let mission = mission::load(&args.scenario, Some(screen))?;
     if args.compare {
         return compared::compared(args, &mission, screen);
     }

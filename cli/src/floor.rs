@@ -85,6 +85,7 @@ pub(crate) fn way(
     asked: Asked,
     folder: Option<&Path>,
     robot: Option<&RobotFile>,
+    screen: Option<&Screen>,
 ) -> Result<Option<Way>, Failure> {
     let radius = robot.and_then(|it| it.robot().body.as_ref()).map(|it| it.radius.0);
     let needs = radius.map_or(Needs::default(), needs);
@@ -98,7 +99,7 @@ pub(crate) fn way(
         OFFICE => embedded::OFFICE.text.to_owned(),
         file => input::text(file, "a floor", FLOOR_BYTES)?,
     };
-    Ok(Some(read(&name, None)?.ground().way(&name, &text, asked, needs)))
+    Ok(Some(read(&name, screen)?.ground().way(&name, &text, asked, needs)))
 }
 
 /// The drawing of a name, or in a file.
@@ -116,7 +117,7 @@ pub(crate) fn drawing(name: &str) -> Result<Floor, Failure> {
 /// The floor that comes with the program.
 const OFFICE: &str = "office";
 
-/// The floor of a name, or in a file.
+/// The floor of a name, or in a file; warnings of a map go to the screen.
 fn read(name: &str, screen: Option<&Screen>) -> Result<Read, Failure> {
     if name == OFFICE {
         return Ok(Read::Drawing(Box::new(embedded::OFFICE.floor()?)));

@@ -164,7 +164,7 @@ fn ended(command: Command, screen: &Screen) -> Result<Exit, Failure> {
         Command::Campaign(args) => campaign::campaign(&args, screen),
         Command::New(args) => new::new(&args, screen),
         Command::Show(args) => show::show(&args),
-        Command::Table(args) => about::table(&args),
+        Command::Table(args) => about::table(&args, screen),
         Command::Schema(args) => about::schema(&args),
         Command::Completions(args) => about::completions(&args),
         Command::Man(args) => about::man(&args),

@@ -6,6 +6,7 @@ use crate::floor;
 use crate::input;
 use crate::kind::{self, Kind};
 use crate::names::{is_name, near};
+use crate::output::Screen;
 use crate::robot;
 use cotama_campaign::subject::Subject;
 use cotama_core::hardware::Equipment;
@@ -17,20 +18,24 @@ use std::path::Path;
 /// The source of a mission that came from there.
 const STANDARD_INPUT: &str = "standard input";
 
-/// The mission of this name, or of the file at this path.
-pub(crate) fn load(name: &str) -> Result<Mission, Failure> {
-    loaded(name, None)
+/// The mission of this name, or of the file at this path; warnings of its floor go to the screen.
+pub(crate) fn load(name: &str, screen: Option<&Screen>) -> Result<Mission, Failure> {
+    loaded(name, None, screen)
 }
 
 /// The mission of this name under the supervisors of a robot: its own, or the given one of a plain
 /// mission.
 pub(crate) fn under(name: &str, robot: &str) -> Result<Mission, Failure> {
-    let mission = loaded(name, None)?;
-    if mission.is_supervised() { Ok(mission) } else { loaded(name, Some(robot)) }
+    let mission = loaded(name, None, None)?;
+    if mission.is_supervised() { Ok(mission) } else { loaded(name, Some(robot), None) }
 }
 
 /// The same; `supervised` is the robot whose supervisors are to decide.
-fn loaded(name: &str, supervised: Option<&str>) -> Result<Mission, Failure> {
+fn loaded(
+    name: &str,
+    supervised: Option<&str>,
+    screen: Option<&Screen>,
+) -> Result<Mission, Failure> {
     let text = match embedded::mission(name) {
         Some(known) => known.text.to_owned(),
         None if is_name(name) && !Path::new(name).exists() => {
@@ -52,7 +57,7 @@ fn loaded(name: &str, supervised: Option<&str>) -> Result<Mission, Failure> {
         (None, _) => None,
     };
     let way = match Asked::of(&text) {
-        Some(asked) => floor::way(asked, Path::new(source).parent(), robot.as_ref())?,
+        Some(asked) => floor::way(asked, Path::new(source).parent(), robot.as_ref(), screen)?,
         None => None,
     };
     Ok(Mission::parse_on(source, &text, robot, way.as_ref())?)
@@ -98,8 +103,12 @@ pub(crate) fn named<'m>(subject: Subject<'m>, source: &str) -> Subject<'m> {
 }
 
 /// The mission for a plan or a run, with the limits of the command line.
-pub(crate) fn load_for(name: &str, planning: &Planning) -> Result<Mission, Failure> {
-    let mission = loaded(name, planning.supervised.as_deref())?;
+pub(crate) fn load_for(
+    name: &str,
+    planning: &Planning,
+    screen: Option<&Screen>,
+) -> Result<Mission, Failure> {
+    let mission = loaded(name, planning.supervised.as_deref(), screen)?;
     let limits = [planning.duration_limit, planning.energy_limit];
     if limits == [None, None] { Ok(mission) } else { Ok(mission.with_limits(limits)?) }
 }

@@ -203,7 +203,8 @@ pub(crate) fn find(name: &str) -> Result<Found, Failure> {
     }
 }
 
-/// The supervisors of the mission of this name or file, if it is one that names its robot.
+/// The supervisors of the mission of this name or file, if it is one that names its robot. Its
+/// floor decides nothing for them, so nothing warns of it.
 fn of_mission(name: &str) -> Result<Option<Found>, Failure> {
     let text = match embedded::mission(name) {
         Some(it) => it.text.to_owned(),
@@ -215,7 +216,7 @@ fn of_mission(name: &str) -> Result<Option<Found>, Failure> {
     if Mission::robot_of(&text).is_none() {
         return Ok(None);
     }
-    Ok(Found::of_mission(&mission::load(name)?))
+    Ok(Found::of_mission(&mission::load(name, None)?))
 }
 
 /// The supervisors of a robot in a mission: one that names it, or a plain one.

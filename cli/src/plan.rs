@@ -24,7 +24,7 @@ pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
         let message = "--steps with --objective front: its search is bounded by partial plans";
         return Err(Failure::new(message).help("leave --steps out"));
     }
-    let mission = mission::load_for(&args.mission.mission, &args.planning)?;
+    let mission = mission::load_for(&args.mission.mission, &args.planning, Some(screen))?;
     let answer = answer(args, &mission)?;
     if args.json.json {
         Screen::json(&answer)?;
@@ -241,7 +241,7 @@ mod tests {
         let Command::Plan(args) = Cli::parse_from(["cotama", "plan", "patrol"]).command else {
             unreachable!("`plan` is the command")
         };
-        let mission = mission::load_for(&args.mission.mission, &args.planning).unwrap();
+        let mission = mission::load_for(&args.mission.mission, &args.planning, None).unwrap();
         let mut answer = answer(&args, &mission).unwrap();
         let candidate =
             |it| Candidate { cost: [it, ways - 1 - it], quality: 0, id: (it % 2) as u16 };

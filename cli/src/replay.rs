@@ -38,7 +38,7 @@ pub(crate) fn replay(args: &ReplayArgs, screen: &Screen) -> Result<Exit, Failure
     }
     let is_trace = text.trim_start().starts_with('{');
     let Replayed { mission, trace, run, compared } =
-        if is_trace { stored(args, &text)? } else { faults(args, &text)? };
+        if is_trace { stored(args, &text)? } else { faults(args, &text, screen)? };
     let mut run_body = body(&trace, &run, &mission.name);
     let file = is_trace.then_some(args.file.as_str()).filter(|it| *it != "-");
     write_files(args.report.as_deref(), args.trace.as_deref(), &trace, file, &mut run_body)?;
@@ -135,14 +135,14 @@ fn stored(args: &ReplayArgs, text: &str) -> Result<Replayed, Failure> {
     Ok(Replayed { mission, trace, run, compared: Compared::Records(difference) })
 }
 
-fn faults(args: &ReplayArgs, text: &str) -> Result<Replayed, Failure> {
+fn faults(args: &ReplayArgs, text: &str, screen: &Screen) -> Result<Replayed, Failure> {
     let named = || FaultsFile::mission_of(text);
     let Some(name) = args.mission.clone().or_else(named) else {
         let message = "this is not a trace; a file of faults needs a mission";
         return Err(Failure::of(input::name(&args.file), message)
             .help(format!("cotama replay {} --mission patrol", names::quoted(&args.file))));
     };
-    let mission = mission::load(&name)?;
+    let mission = mission::load(&name, Some(screen))?;
     let file = FaultsFile::parse(&args.file, text, &mission)?;
     let compared = match &file.expected {
         None => Compared::Nothing,

@@ -45,7 +45,7 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
     team::none_given(args)?;
     team::not_meant(&args.mission.mission)?;
     mission::pursued(args.objective, args.planning.allocator)?;
-    let mission = mission::load_for(&args.mission.mission, &args.planning)?;
+    let mission = mission::load_for(&args.mission.mission, &args.planning, Some(screen))?;
     let options = options(args, &mission)?;
     if let Some(note) = planned_otherwise(args, &options, &mission) {
         screen.note(&note);
@@ -119,7 +119,7 @@ fn next(args: &RunArgs, mission: &Mission, body: &RunBody) -> Option<String> {
 /// is made, and nothing of it is written.
 fn helps(args: &RunArgs, body: &RunBody) -> bool {
     let made = || {
-        let mission = mission::load_for(&args.mission.mission, &args.planning).ok()?;
+        let mission = mission::load_for(&args.mission.mission, &args.planning, None).ok()?;
         let options = options(args, &mission).ok()?;
         let (_, run) = Trace::record(&mission, &options).ok()?;
         let completed = run.outcome == cotama_sim::run::Outcome::Completed;

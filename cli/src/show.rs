@@ -16,7 +16,7 @@ pub(crate) fn show(args: &MissionArg) -> Result<Exit, Failure> {
     let text = match (robot.or(floor).map(str::to_owned), Chosen::of(&args.mission)?) {
         (Some(text), _) => text,
         (None, Some(team)) => team.text(),
-        (None, None) => mission::load(&args.mission)?.text().to_owned(),
+        (None, None) => mission::load(&args.mission, None)?.text().to_owned(),
     };
     Screen::raw(text::toml(&text).to_string().as_bytes())?;
     Ok(Exit::Success)

@@ -95,6 +95,34 @@ fn places_and_doors_that_are_not_there_are_refused_with_near_names() {
     }
 }
 
+#[test]
+fn a_mission_over_a_map_warns_of_the_map_as_the_floor_itself_does() {
+    let folder = Folder::new("floor_warned");
+    folder.write("hall.pgm", format!("P2 60 40 255\n{}\n", "254 ".repeat(60 * 40)));
+    let text = "image: hall.pgm\nresolution: 0.1\norigin: [0, 0, 0.5]\nnegate: 0\n\
+                occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+    folder.write("hall.yaml", text);
+    let over = r#"
+format = "panorama-mission/2"
+name = "over"
+robot = "transport"
+floor = "hall.yaml"
+from = "1000,1000"
+limits = { order = ["duration", "energy"], duration_ms = 400_000, energy_mj = 50_000_000 }
+objective = [{ id = "Over", does = "drive", to = "5000,3000" }]
+"#;
+    folder.write("over.toml", over);
+    let warning = "hall.yaml:3:9: warning: the yaw 0.5 is not used; turn the image\n";
+    for arguments in
+        [&["floor", "hall.yaml"][..], &["plan", "over.toml"], &["run", "over.toml", "--no-report"]]
+    {
+        let said = folder.cotama(arguments);
+        assert_eq!((said.code, said.stderr.as_str()), (Some(0), warning), "{arguments:?}");
+    }
+    folder.write("hall.yaml", text.replace("0.5]", "0]"));
+    assert_eq!(folder.cotama(&["plan", "over.toml"]).stderr, "");
+}
+
 /// A mission over the office, with one more text in place of another.
 fn rounds(from: &str, to: &str) -> String {
     let text = include_str!("texts/rounds.toml");
