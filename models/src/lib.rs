@@ -40,12 +40,14 @@ pub mod cotama;
 pub mod fmeca;
 #[cfg(feature = "std")]
 mod json;
+pub mod level;
 pub mod missions;
 pub mod nets;
 #[cfg(feature = "std")]
 pub mod reading;
 #[cfg(feature = "std")]
 pub mod robots;
+pub mod severity;
 pub mod team;
 #[cfg(feature = "std")]
 pub mod toml_text;

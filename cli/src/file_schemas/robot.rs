@@ -3,11 +3,11 @@
 use super::DRAFT;
 use super::parts::{choice, flag, id, integer, named, table, tables, text, with, word};
 use cotama_models::robots::known::{
-    BODY_SPEEDS, COEFFICIENTS, COSTS, FORMAT, HOLDS, MAX_FLAGS, MAX_PARAMETERS, MODES, MOTIONS,
-    PERIODS, PERSISTENCES, POSITIVE, POWERS, RADII, RANKS, RESTARTS, SETTINGS, SEVERITIES, SLOWED,
-    SPEEDS, TIMES, UNITS, VALUES,
+    BODY_SPEEDS, COEFFICIENTS, COSTS, FORMAT, HOLDS, MAX_PARAMETERS, MODES, MOTIONS, PERIODS,
+    PERSISTENCES, POSITIVE, POWERS, RADII, RANKS, RESTARTS, SETTINGS, SEVERITIES, SLOWED, SPEEDS,
+    TIMES, UNITS, VALUES,
 };
-use cotama_models::robots::{MAX_CONFIGURATIONS, MAX_FAILURES, MAX_PARTS};
+use cotama_models::robots::{MAX_CONFIGURATIONS, MAX_FAILURES, MAX_FLAGS, MAX_PARTS};
 use serde_json::{Value, json};
 
 /// The schema of a robot's file.

@@ -7,31 +7,14 @@ use super::supervisors::{
     delivery, faults, global, local, operator, path_following, permit, recovering,
     recovering_faults,
 };
+pub use crate::level::Cause;
 use core::marker::PhantomData;
 use cotama_core::net::{EventId, PlaceId, TransitionId};
 use cotama_core::player::{
-    Checked, Kind, Observer, Outcome, Player, Program, RestoreError, Round, Snapshot, Stored,
+    Checked, Kind, Observer, Outcome, Player, Program, RestoreError, Round, Snapshot,
 };
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
-
-/// The cause of an event: a number that the caller chose, for example the position of a fault in
-/// its list. It travels with everything that is done because of the event.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Cause(pub u16);
-
-/// As its number.
-impl Stored for Cause {
-    const BYTES: usize = u16::BYTES;
-
-    fn write(&self, bytes: &mut [u8]) {
-        self.0.write(bytes);
-    }
-
-    fn read(bytes: &[u8]) -> Option<Self> {
-        u16::read(bytes).map(Self)
-    }
-}
 
 /// The event of a global supervisor made from a mission in which the robot waits, behind those of
 /// [`global`].

@@ -5,7 +5,7 @@
 //! ours (assumed), and each says what it follows.
 
 use super::analysis::{Analysis, Mode};
-use crate::cotama::Severity;
+use crate::severity::Severity;
 
 /// How critical a failure mode is.
 ///

@@ -1,51 +1,7 @@
 //! The decision of the contextual supervisor, as a function of the robot.
 
-use super::{Mode, Robot};
-use crate::cotama::Severity;
-
-/// Place of the robot when a report comes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Where {
-    /// No drive.
-    Rests,
-    /// The robot stands and waits for the operator, or for its end.
-    Waits,
-    /// A configuration runs.
-    Runs {
-        /// The sub-objective.
-        sub_objective: usize,
-        /// The configuration.
-        configuration: usize,
-    },
-}
-
-impl Where {
-    /// Returns the sub-objective that runs; `None` where none does.
-    pub const fn sub_objective(self) -> Option<usize> {
-        match self {
-            Self::Runs { sub_objective, .. } => Some(sub_objective),
-            Self::Rests | Self::Waits => None,
-        }
-    }
-
-    /// Returns the name of the place: that of the sub-objective, `Waits` or `Idle`.
-    pub fn name(self, robot: &Robot) -> &str {
-        match self {
-            Self::Rests => "Idle",
-            Self::Waits => "Waits",
-            Self::Runs { sub_objective, .. } => {
-                robot.sub_objectives.get(sub_objective).map_or("", |it| it.name.as_str())
-            }
-        }
-    }
-
-    /// Whether the robot has left this place for another one: not so for another configuration of
-    /// the sub-objective that runs.
-    pub fn is_left_for(self, next: Self) -> bool {
-        self.sub_objective() != next.sub_objective()
-            || (self == Self::Waits) != (next == Self::Waits)
-    }
-}
+use super::{Mode, Robot, Where};
+use crate::severity::Severity;
 
 /// Place of the robot, and its losses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -70,8 +26,8 @@ pub enum Decision {
 }
 
 /// The decision on a report, by its number: by severity and by what is available, the worse of both
-/// (Durand et al., TAROS 2010, Sections III.A, III.C and V.B; the two rules are inferred, as in
-/// [`by_rules`](crate::cotama::by_rules)).
+/// (Durand et al., TAROS 2010, Sections III.A, III.C and V.B; the two rules are
+/// inferred).
 ///
 /// * Fatal ends the mission, wherever the robot is.
 /// * Hard asks the operator, or ends the mission where he cannot help.

@@ -27,8 +27,6 @@ pub const VALUES: RangeInclusive<i64> = 0..=1_000_000_000;
 pub const HOLDS: RangeInclusive<i64> = 0..=3_600_000;
 /// The most parameters of a module.
 pub const MAX_PARAMETERS: usize = 16;
-/// The most flags of an observer.
-pub const MAX_FLAGS: usize = 64;
 /// Modes of autonomy.
 pub const MODES: [&str; 2] = ["autonomous", "operator"];
 /// Severities.

@@ -2,7 +2,7 @@
 
 use super::supervisors::word;
 use super::{Failure, MAX_LOSSES, MAX_REPORTS, Mode, Parts, Restarts, Robot, Setting, members};
-use crate::cotama::Severity;
+use crate::severity::Severity;
 
 /// A loss that stays: the parts that are gone with a failure, as far as some configuration or the
 /// link to the operator needs them. Failures that take the same are one loss.

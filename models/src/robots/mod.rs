@@ -56,12 +56,11 @@
 //! ```
 
 mod decision;
-mod diagnosis;
 mod embedded;
 mod file;
+mod fired;
 mod in_time;
 pub mod known;
-mod level;
 mod losses;
 mod reached;
 mod reader;
@@ -70,35 +69,30 @@ mod script;
 mod settings;
 mod sound;
 pub mod supervisors;
+mod tables;
 #[cfg(test)]
 mod tests;
 
-pub use decision::{Decision, Situation, Where, decide};
-pub use diagnosis::diagnose;
+pub use crate::level::{
+    Global, MAX_CONFIGURATIONS, MAX_FAILURES, MAX_FLAGS, MAX_LOSSES, MAX_REPORTS, Mode, Told, Where,
+};
+pub use decision::{Decision, Situation, decide};
 pub use embedded::{EMBEDDED, EmbeddedRobot, embedded};
 pub use file::RobotFile;
+pub use fired::{Fired, fired, name_of};
 pub use known::FORMAT;
-pub use level::{Fired, Global, Level, Told};
 pub use losses::{Loss, Losses, Report};
 pub use script::{Answer, Incident, IncidentKind, Moment};
 pub use settings::{Parameter, Setting, Value};
+pub use tables::OwnedTables;
 
-use crate::cotama::{Persistence, Severity};
 use crate::missions::MotionPower;
+use crate::severity::{Persistence, Severity};
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::units::{Micros, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
 
 /// The most kinds of hardware, and the most modules.
 pub const MAX_PARTS: usize = 64;
-/// The most configurations.
-pub const MAX_CONFIGURATIONS: usize = 32;
-/// The most failures.
-pub const MAX_FAILURES: usize = 256;
-/// The most losses that make a difference: the supervisors remember each.
-pub const MAX_LOSSES: usize = 10;
-/// The most reports that differ.
-pub const MAX_REPORTS: usize = 64;
-
 /// A robot. Modules, hardware and the other parts are numbered in the order of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Robot {
@@ -221,15 +215,6 @@ pub struct Module {
     pub serves: String,
     /// Source of what is said of it; may be empty.
     pub source: String,
-}
-
-/// Decider of the robot's motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Mode {
-    /// The robot.
-    Autonomous,
-    /// The operator, by hand or by way-points.
-    Operator,
 }
 
 /// A sub-objective of a drive: a part of it that one set of modules serves at a time.
@@ -405,6 +390,17 @@ impl Robot {
         all.flat_map(|(at, it)| it.flags.iter().map(move |flag| (at, flag.as_str())))
     }
 
+    /// Returns the name of a place in a drive: that of the sub-objective, `Waits` or `Idle`.
+    pub fn name_of(&self, at: Where) -> &str {
+        match at {
+            Where::Rests => "Idle",
+            Where::Waits => "Waits",
+            Where::Runs { sub_objective, .. } => {
+                self.sub_objectives.get(sub_objective).map_or("", |it| it.name.as_str())
+            }
+        }
+    }
+
     /// Returns the configurations that can run after these losses, a bit each.
     pub fn running(&self, lost: u32) -> u32 {
         self.losses.after(lost).running
@@ -442,5 +438,20 @@ impl Robot {
             it.mode == Mode::Operator && self.best(at, lost).is_some()
         };
         self.reaches_operator(lost) && self.sub_objectives.iter().enumerate().any(helps)
+    }
+
+    /// The sub-objectives of a mode that can be served after these losses, by number.
+    pub fn served(&self, mode: Mode, lost: u32) -> impl Iterator<Item = usize> {
+        let all = self.sub_objectives.iter().enumerate();
+        let all = all.filter(move |it| it.1.mode == mode && self.best(it.0, lost).is_some());
+        all.map(|it| it.0)
+    }
+
+    /// Returns the losses that these lost parts come to, a bit each.
+    pub fn lost(&self, parts: Parts) -> u32 {
+        let gone = !self.available(parts);
+        let all = self.losses.losses.iter().enumerate();
+        let all = all.filter(|it| members(it.1.modules).all(|module| gone >> module & 1 == 1));
+        all.fold(0, |set, it| set | 1 << it.0)
     }
 }

@@ -5,13 +5,13 @@ mod failures;
 mod settings;
 
 use super::in_time;
-use super::known::{COSTS, FORMAT, MAX_FLAGS, MODES, POWERS, RANKS, SPEEDS, TIMES, UNITS};
+use super::known::{COSTS, FORMAT, MODES, POWERS, RANKS, SPEEDS, TIMES, UNITS};
 use super::losses::{Losses, TooMany};
 use super::sound::Places;
 use super::supervisors::{self, ReadNet};
 use super::{
-    Configuration, Hardware, MAX_CONFIGURATIONS, MAX_FAILURES, MAX_LOSSES, MAX_PARTS, MAX_REPORTS,
-    Mode, Module, Observer, Parts, Robot, SubObjective, sound,
+    Configuration, Hardware, MAX_CONFIGURATIONS, MAX_FAILURES, MAX_FLAGS, MAX_LOSSES, MAX_PARTS,
+    MAX_REPORTS, Mode, Module, Observer, Parts, Robot, SubObjective, sound,
 };
 use crate::missions::reader::fields::{Fields, Sink, document_of_either};
 use crate::missions::{Diagnostic, MissionErrors, Spanned};
@@ -328,10 +328,11 @@ fn observer((name, fields): Named<'_>, names: &mut Names) -> Option<Observer> {
         names.flags.push(it.value.clone());
         names.at.flags.push(it.span.clone());
     }
-    if flags.as_ref().is_some_and(|it| it.len() > MAX_FLAGS) {
-        let message = format!("an observer has at most {MAX_FLAGS} flags");
+    let own = flags.as_ref().map_or(0, Vec::len);
+    if names.flags.len() > MAX_FLAGS && names.flags.len() - own <= MAX_FLAGS {
+        let message = format!("a robot has at most {MAX_FLAGS} flags");
         let it = Diagnostic::new(fields.span_of("flags"), message, "too many");
-        fields.report(it.help("make two observers of it"));
+        fields.report(it.help("let one flag show what is answered alike"));
     }
     fields.finish();
     let flags = flags?.into_iter().map(|it| it.value).collect();

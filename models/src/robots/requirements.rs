@@ -6,7 +6,7 @@
 
 use super::supervisors::{Step, adapter, cannot_run, place_of, word};
 use super::{Mode, Robot, SubObjective};
-use crate::cotama::Severity;
+use crate::severity::Severity;
 
 /// Something that the supervisors of a robot are required to do.
 #[derive(Clone, Debug, PartialEq, Eq)]

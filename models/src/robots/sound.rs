@@ -2,10 +2,10 @@
 
 use super::supervisors::word;
 use super::{Mode, Parts, Robot, members, reached};
-use crate::cotama::Severity;
 use crate::missions::Diagnostic;
 use crate::missions::reader::fields::Sink;
 use crate::names::quoted;
+use crate::severity::Severity;
 use std::collections::BTreeSet;
 use std::ops::Range;
 

@@ -12,14 +12,14 @@ mod supervisors;
 #[cfg(test)]
 mod tests;
 
-use crate::robots::failing::{Failures, mode, moves};
+use crate::robots::failing::{mode, moves};
 use crate::robots::operator::PATIENCE;
 use cotama_core::net::TransitionId;
 use cotama_core::player::{Firing, Names, Observer};
 use cotama_core::system::Of;
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::Cause;
-use cotama_models::robots::{Global, Mode, Robot, Told, Where};
+use cotama_models::level::{Act, Cause};
+use cotama_models::robots::{Global, Mode, Robot, Told, Where, members};
 use cotama_models::team::scenario::{self, Row, Stage};
 use moving::{Moving, Orders};
 use std::collections::VecDeque;
@@ -119,7 +119,8 @@ impl Driver {
         };
         self.told.retain(|it| is_known(*it));
         self.level = KIND.at_rest(&self.told);
-        let is_told = |row: usize| Failures::report(Self::robot(), row).is_some_and(is_known);
+        let report = |row: usize| KIND.tables.failures.get(row).map(|it| usize::from(it.report));
+        let is_told = |row: usize| report(row).is_some_and(is_known);
         self.moving.failures.show_again(is_told);
         let failures = &self.moving.failures;
         self.moving.seen.retain(|it| failures.all.get(*it).is_some_and(|it| it.found));
@@ -242,7 +243,10 @@ impl Driver {
         self.follow();
         if let Some(told) = self.untold.pop_front().or_else(|| self.says(now, done)) {
             self.calm = false;
-            self.level.tell(Millis(now), told, Cause(0), &mut seen);
+            let accepted = self.level.tell(Millis(now), told, Cause(0), &mut seen);
+            if let (true, Told::Back(loss)) = (accepted, told) {
+                self.moving.adapted.is_back(loss);
+            }
             if let Told::Report(it) = told
                 && !self.told.contains(&it)
             {
@@ -260,8 +264,9 @@ impl Driver {
         let seen = std::mem::take(&mut self.moving.seen);
         let first = self.moving.failures.all.get(*seen.first()?)?.number;
         self.calm = false;
-        let (_, taken) = self.moving.failures.diagnosed(Self::robot(), &seen);
-        let reports = taken.into_iter().filter_map(|it| Failures::report(Self::robot(), it));
+        let (_, taken) = self.moving.failures.diagnosed(&KIND.tables, &seen);
+        let reports = taken.into_iter().filter_map(|it| KIND.tables.failures.get(it));
+        let reports = reports.map(|it| usize::from(it.report));
         for told in reports.map(Told::Report) {
             if !self.untold.contains(&told) {
                 self.untold.push_back(told);
@@ -272,9 +277,8 @@ impl Driver {
 
     /// Lost parts that have worked again for long enough are to be told.
     fn return_what_works(&mut self, now: u64) {
-        let (moving, known) = (&mut self.moving, self.level.lost());
-        let back = moving.adapted.back(Self::robot(), &moving.failures, known, Millis(now));
-        for told in back.into_iter().map(Told::Back) {
+        let back = self.moving.adapted.back(&KIND.tables, self.level.lost(), Millis(now));
+        for told in members(u64::from(back)).map(Told::Back) {
             if !self.untold.contains(&told) {
                 self.untold.push_back(told);
             }
@@ -299,16 +303,23 @@ impl Driver {
         let kind: &Kind = &KIND;
         for id in seen.fired.iter().filter(|it| Some(usize::from(it.component)) == kind.observation)
         {
-            let Some(fired) = self.level.fired(*id) else { continue };
-            let (restarts, sets) = (fired.restarts, fired.sets);
-            if let Some(module) = restarts {
-                self.moving.failures.restart(kind.robot, module);
-            }
-            if let Some(report) = sets {
-                let Moving { adapted, failures, .. } = &mut self.moving;
-                adapted.answer(kind.robot, failures, report, Millis(now));
+            match kind.tables.act(*id) {
+                Some(Act::Restart(module)) => {
+                    self.moving.failures.restart(kind.robot, usize::from(module));
+                }
+                Some(Act::Set(report)) => self.set(now, usize::from(report)),
+                None => {}
             }
         }
+    }
+
+    /// Makes the setting of a report.
+    fn set(&mut self, now: u64, report: usize) {
+        let of = Self::robot().losses.reports.get(report);
+        if let Some((of, setting)) = of.and_then(|it| Some((it, it.sets.as_ref()?))) {
+            self.moving.failures.set(&of.failures, setting);
+        }
+        self.moving.adapted.set(report, Millis(now));
     }
 
     /// Notes where the supervisors have come to; returns the configuration if it is another one.
@@ -342,7 +353,7 @@ impl Driver {
         }
         let in_period = |it: u64| moving.now.saturating_add(it.saturating_add(1) * period);
         let sees = Some(moving.unseen_for(&orders)).filter(|it| *it < u64::MAX).map(in_period);
-        let returns = moving.adapted.returns_at(Self::robot(), &moving.failures);
+        let returns = moving.adapted.returns_at();
         let changes = moving.changes().chain(returns).map(|it| it.0);
         let arrives = (moving.drive.speed().0 > 0).then(|| {
             let end = moving.demand(&orders).end;

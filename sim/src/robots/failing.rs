@@ -2,8 +2,9 @@
 
 use crate::body::{Drive, FIRMWARE_WATCHDOG, Motion};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
-use cotama_models::cotama::Persistence;
-use cotama_models::robots::{self, Mode, Parts, Robot, Setting, Where, diagnose};
+use cotama_models::level::{Tables, diagnose};
+use cotama_models::robots::{self, Mode, Parts, Robot, Setting, Where, members};
+use cotama_models::severity::Persistence;
 
 /// A failure under way.
 #[derive(Clone, Copy, Debug)]
@@ -100,24 +101,26 @@ impl Failures {
 
     /// Returns the flags that failures raise which are seen from now on, and the rows that they are
     /// taken for.
-    pub(crate) fn diagnosed(&self, robot: &Robot, seen: &[usize]) -> (Vec<usize>, Vec<usize>) {
+    pub(crate) fn diagnosed(
+        &self,
+        tables: &Tables<'_>,
+        seen: &[usize],
+    ) -> (Vec<usize>, Vec<usize>) {
         let rows = seen.iter().filter_map(|it| self.all.get(*it));
-        let rows = rows.filter_map(|it| robot.failures.get(it.number));
-        let mut raised: Vec<usize> = rows.flat_map(|it| it.flags.iter().copied()).collect();
-        raised.sort_unstable();
-        raised.dedup();
-        let taken = diagnose(robot, &self.flags(robot), &raised);
-        (raised, taken)
+        let rows = rows.filter_map(|it| tables.failures.get(it.number));
+        let raised = rows.fold(0, |set, it| set | it.flags);
+        let open = self.all.iter().filter(|it| it.found && !it.over);
+        let open = open.filter_map(|it| tables.failures.get(it.number));
+        let up = open.fold(0, |set, it| set | it.flags);
+        let taken = diagnose(tables.failures, up, raised);
+        (members(raised).collect(), taken.worst_first(tables.failures).collect())
     }
 
-    /// Returns the report by which a row is told.
-    pub(crate) fn report(robot: &Robot, row: usize) -> Option<usize> {
-        robot.losses.reports.iter().position(|it| it.failures.contains(&row))
-    }
-
-    /// Whether observers see a failure of one of these rows now.
-    pub(crate) fn is_seen(&self, of: &[usize]) -> bool {
-        self.all.iter().any(|it| it.found && !it.over && of.contains(&it.number))
+    /// Returns the reports of failures that observers see now, a bit each.
+    pub(crate) fn shown(&self, tables: &Tables<'_>) -> u64 {
+        let seen = self.all.iter().filter(|it| it.found && !it.over);
+        let seen = seen.filter_map(|it| tables.failures.get(it.number));
+        seen.fold(0, |set, it| set | 1 << it.report)
     }
 
     /// Whether the operator answers nothing.
@@ -131,13 +134,11 @@ impl Failures {
     }
 
     /// Returns the losses of which something is broken, known or not, a bit each.
-    pub(crate) fn broken_losses(&self, robot: &Robot) -> u32 {
+    pub(crate) fn broken_losses(&self, robot: &Robot, tables: &Tables<'_>) -> u32 {
         if self.all.iter().all(|it| it.over) {
             return 0;
         }
-        let gone = !robot.available(self.broken(robot));
-        let all = robot.losses.losses.iter().enumerate().filter(|it| it.1.modules & gone != 0);
-        all.fold(0, |set, it| set | 1 << it.0)
+        tables.broken(robot.available(self.broken(robot)))
     }
 
     /// Whether the computer is up.
@@ -227,15 +228,6 @@ impl Failures {
                 self.unseen = self.unseen.max(Millis(late));
             }
         }
-    }
-
-    /// The flags that are up, with those of failures that are over gone.
-    pub(crate) fn flags(&self, robot: &Robot) -> Vec<bool> {
-        let mut up = vec![false; robot.flags().count()];
-        for flag in self.open(robot).filter(|it| it.0.found).flat_map(|it| &it.1.flags) {
-            up.get_mut(*flag).into_iter().for_each(|it| *it = true);
-        }
-        up
     }
 
     /// When the next failure changes by itself: it ends, or the micro-controller hears nothing.

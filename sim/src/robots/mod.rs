@@ -16,7 +16,6 @@
 //! assert_eq!((run.outcome, run.operator_requests), (Outcome::Completed, 0));
 //! ```
 
-pub(crate) mod adapted;
 pub(crate) mod failing;
 mod hindered;
 mod monitor;
@@ -36,7 +35,7 @@ use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Event, EventKind, Faults, PowerError};
 use cotama_models::robots::supervisors::{self, OwnedSystem};
 use cotama_models::robots::{
-    Answer, Decision, Incident, IncidentKind, Moment, RobotFile, Told, Where,
+    Answer, Decision, Incident, IncidentKind, Moment, OwnedTables, RobotFile, Told, Where,
 };
 use monitor::Watching;
 pub use monitor::{Monitor, Unmonitored, Violation};
@@ -229,6 +228,7 @@ pub struct Driven<'m> {
     mission: &'m Mission,
     system: OwnedSystem,
     packed: Memory,
+    tables: OwnedTables,
     plannable: Plannable<'m>,
     monitors: Vec<Monitor>,
     /// For how long the robot is watched when it is safe.
@@ -296,9 +296,10 @@ impl<'m> Driven<'m> {
             })
         });
         let packed = packed.map_err(Undriven::TooLarge)?;
+        let tables = OwnedTables::of(robot, &mission.steps(), &system);
         let plannable = Plannable::new(mission, options).map_err(Undriven::Unwatchable)?;
         let (monitors, after) = (Vec::new(), Millis(0));
-        Ok(Self { mission, system, packed, plannable, monitors, after })
+        Ok(Self { mission, system, packed, tables, plannable, monitors, after })
     }
 
     /// A property of its supervisors, to be watched: see [`Monitor`].
@@ -361,7 +362,9 @@ impl<'m> Driven<'m> {
         let (start, available) = (Progress::start(Millimetres(0)), self.mission.available());
         let planning = Planning::start(&self.plannable, &start, available)?;
         let watching = Watching::new(&self.monitors);
-        let world = World::start(self.mission, program, planning, script, period, watching);
+        let tables = self.tables.view();
+        let world =
+            World::start(self.mission, &tables, program, planning, script, period, watching);
         let Some(mut world) = world else {
             return Err(NoPlan::Infeasible); // a mission that is driven has a robot with a body
         };

@@ -4,7 +4,6 @@
 //! lower their flags, which are diagnosed; the supervisors take a round and are told one thing. So
 //! a run is a run of the nets that were checked.
 
-use super::adapted::Adapted;
 use super::failing::Failures;
 use super::hindered::Hindered;
 use super::monitor::Watching;
@@ -16,12 +15,12 @@ use crate::record::{Recorder, Silent};
 use crate::run::{LONGEST, Outcome};
 use cotama_core::player::Program;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
-use cotama_models::cotama::Cause;
+use cotama_models::level::{Cause, Decider, Level, Tables};
 use cotama_models::missions::Mission;
 use cotama_models::missions::tables::Rest;
-use cotama_models::robots::{Body, Global, Level, Moment, Parts, Robot, Told, Where};
+use cotama_models::robots::{Body, Global, Moment, Parts, Robot, Where};
 use records::Recording;
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::BTreeSet;
 
 mod motion;
 mod passing;
@@ -34,7 +33,7 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     pub(super) mission: &'m Mission,
     pub(super) robot: &'m Robot,
     body: &'m Body,
-    pub(super) level: Level<'m, P, W, 0, S>,
+    pub(super) decider: Decider<'m, P, W, 0, S>,
     pub(super) planning: Planning<'m>,
     pub(super) now: Millis,
     pub(super) drive: Drive,
@@ -48,9 +47,6 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     pub(super) known: Parts,
     /// The failures that are known to have taken them.
     known_rows: BTreeSet<usize>,
-    /// Reports and returns that the supervisors were not told yet, with the failure that they go
-    /// back to.
-    untold: VecDeque<(Told, Cause)>,
     /// The place of the global supervisor, the objective, and since when it is under way.
     global: Global,
     pub(super) objective: usize,
@@ -66,8 +62,6 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     watching: Watching<'m>,
     /// When transitions fired last, and which.
     last: (Millis, Vec<String>),
-    /// Settings that are made, and what has come back.
-    adapted: Adapted,
     /// Whether it was told that no plan is left.
     planless: bool,
     /// Whether nothing happened in the last period.
@@ -79,6 +73,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
     /// with a body.
     pub(super) fn start(
         mission: &'m Mission,
+        tables: &'m Tables<'m>,
         program: P,
         planning: Planning<'m>,
         script: &Script,
@@ -111,7 +106,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             mission,
             robot,
             body,
-            level: Level::start(robot, mission.steps(), program),
+            decider: Decider::new(Level::start(tables, program)),
             planning,
             now: Millis(0),
             drive: Drive::new(body.acceleration.max(1)),
@@ -123,7 +118,6 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             operator: Operator::new(&script.answers),
             known: Parts::NONE,
             known_rows: BTreeSet::new(),
-            untold: VecDeque::new(),
             global: Global::Waits,
             objective: 0,
             objective_since: Millis(0),
@@ -136,7 +130,6 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             run,
             watching,
             last: (Millis(0), Vec::new()),
-            adapted: Adapted::default(),
             planless: false,
             calm: false,
         })
@@ -184,13 +177,12 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let before = self.drive;
         self.calm = true;
         self.fail(recording);
-        self.adapted.see(self.robot, &self.failures, self.now);
         let happened = self.hindered.happen(self.now, self.drive.x());
         self.travel();
         self.calm &= self.drive.is_steady_since(&before, self.body.period);
         if self.failures.thinks(self.robot) {
             self.observe(recording);
-            self.return_what_works();
+            self.see(self.now);
             if !happened.is_empty() || self.looks_at_margins() {
                 self.watch_margins(recording);
             }
@@ -212,8 +204,8 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let stands = self.drive.speed().0 == 0;
         let left_alone = !self.failures.thinks(self.robot)
             && stands
-            && (!self.level.permits() || self.failures.is_abandoned(self.robot, self.now));
-        match self.level.global() {
+            && (!self.level().permits() || self.failures.is_abandoned(self.robot, self.now));
+        match self.level().global() {
             Global::Safe if stands => Some(self.within(Outcome::Safe)),
             _ if left_alone => Some(self.within(Outcome::Safe)),
             Global::Done => Some(self.within(Outcome::Completed)),
@@ -284,9 +276,26 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         self.record_failure(recording, failure);
     }
 
+    /// The supervisors.
+    pub(super) const fn level(&self) -> &Level<'m, P, W, 0, S> {
+        self.decider.level()
+    }
+
+    pub(super) const fn tables(&self) -> &'m Tables<'m> {
+        self.decider.level().tables()
+    }
+
+    /// Observers look whether settings are still needed, and whether what is lost works again.
+    pub(super) fn see(&mut self, now: Millis) {
+        let tables = self.tables();
+        let broken = self.failures.broken_losses(self.robot, tables);
+        self.decider.see(now, self.failures.shown(tables), broken);
+        self.calm &= self.decider.listens();
+    }
+
     /// Whether a drive is under way.
     pub(super) fn drives(&self) -> bool {
-        matches!(self.level.global(), Global::Does(_)) && !self.objective_stands()
+        matches!(self.level().global(), Global::Does(_)) && !self.objective_stands()
     }
 
     /// The configuration that runs.
@@ -327,7 +336,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
     /// failures which stay hold the robot back for all of its way.
     fn lasting_speed(&self, configuration: usize) -> MillimetresPerSecond {
         let of = self.robot.configurations.get(configuration);
-        let left = u64::from(self.adapted.lasting_speed(self.robot));
+        let left = u64::from(self.decider.adapted().lasting_speed(self.tables()));
         of.map_or(MillimetresPerSecond(0), |it| MillimetresPerSecond(it.speed.0 * left / 1_000))
     }
 
@@ -336,7 +345,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let seen = self.failures.look(self.robot, self.place);
         let Some(first) = seen.first().copied() else { return };
         self.calm = false;
-        let (raised, taken) = self.failures.diagnosed(self.robot, &seen);
+        let (raised, taken) = self.failures.diagnosed(self.tables(), &seen);
         for it in &seen {
             if let Some(conduct) = self.run.conduct.get_mut(*it) {
                 conduct.detected = Some(self.now);
@@ -349,11 +358,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
                 .iter()
                 .find(|it| self.failures.all.get(**it).is_some_and(|it| it.number == failure));
             let cause = Cause(u16::try_from(its_own.unwrap_or(&first) + 1).unwrap_or(u16::MAX));
-            if let Some(report) = Failures::report(self.robot, failure)
-                && !self.untold.iter().any(|it| it.0 == Told::Report(report))
-            {
-                self.untold.push_back((Told::Report(report), cause));
-            }
+            self.decider.report(failure, cause);
         }
     }
 }

@@ -5,6 +5,7 @@ mod report;
 mod severity;
 mod situation;
 
-pub use report::{Class, Decision, Report, Reports, decide, lost_after};
-pub use severity::{Severity, by_availability, by_rules, by_severity, is_settled, judge, severity};
+pub use crate::severity::{Class, Severity};
+pub use report::{Decision, Report, Reports, decide, lost_after};
+pub use severity::{by_availability, by_rules, by_severity, is_settled, judge, severity};
 pub use situation::{Loss, Losses, Situation};

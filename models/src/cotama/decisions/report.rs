@@ -5,6 +5,7 @@
 use super::situation::{Loss, Losses, Situation};
 use crate::cotama::members::members;
 use crate::cotama::supervisors::{local, path_following, teleoperation};
+use crate::severity::Class;
 
 members! {
     /// A report of the GOM or a module to the contextual supervisor.
@@ -40,50 +41,6 @@ members! {
         Vital = "vital",
         /// The operator gives up, or does not answer in time.
         Refusal = "refusal",
-    }
-}
-
-/// How strong a decision is; the order is that of strength.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Class {
-    /// Acknowledged and recorded.
-    Record,
-    /// The sub-objective goes on in another way.
-    Adapter,
-    /// The operator is asked.
-    Local,
-    /// The mission ends safely.
-    Global,
-}
-
-impl Class {
-    /// All classes, from the weakest on.
-    pub const ALL: [Self; 4] = [Self::Record, Self::Adapter, Self::Local, Self::Global];
-
-    /// Returns the class of an output of [`contextual`](crate::cotama::contextual), the net that
-    /// decides: all but two outputs go to an adapter.
-    pub fn of_output(output: &str) -> Self {
-        match output {
-            "global_event" => Self::Global,
-            "local_event" => Self::Local,
-            _ => Self::Adapter,
-        }
-    }
-
-    /// The stronger of two.
-    #[must_use]
-    pub const fn worse(self, other: Self) -> Self {
-        if self as u8 >= other as u8 { self } else { other }
-    }
-
-    /// Returns the name in the FMECA: the supervisor that receives the event.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Record => "record",
-            Self::Adapter => "adapter",
-            Self::Local => "local",
-            Self::Global => "global",
-        }
     }
 }
 

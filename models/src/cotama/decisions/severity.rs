@@ -1,47 +1,10 @@
 //! The two rules behind the decision table: how severe a report is, and what is still available.
 
-use super::report::{Class, Decision, Report, adaptation, lost_after};
+use super::report::{Decision, Report, adaptation, lost_after};
 use super::situation::{Loss, Losses, Situation};
 use crate::cotama::modules::{Configuration, Mode};
 use crate::cotama::modules::{Module, Modules};
-
-/// Severity (stated, Durand et al., TAROS 2010, Section III.A). It depends on the autonomy mode.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Severity {
-    /// The sub-objective goes on nearly as before.
-    Weak,
-    /// The sub-objective goes on after an adaptation.
-    Medium,
-    /// The sub-objective does not go on without help.
-    Hard,
-    /// The mission cannot go on.
-    Fatal,
-}
-
-impl Severity {
-    /// All severities, from the weakest on.
-    pub const ALL: [Self; 4] = [Self::Weak, Self::Medium, Self::Hard, Self::Fatal];
-
-    /// Returns the class (stated, Sections III.C and V.B): weak and medium go to the adapter, hard
-    /// to the local, fatal to the global supervisor.
-    pub const fn class(self) -> Class {
-        match self {
-            Self::Weak | Self::Medium => Class::Adapter,
-            Self::Hard => Class::Local,
-            Self::Fatal => Class::Global,
-        }
-    }
-
-    /// Returns the name in the FMECA.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Weak => "weak",
-            Self::Medium => "medium",
-            Self::Hard => "hard",
-            Self::Fatal => "fatal",
-        }
-    }
-}
+use crate::severity::{Class, Severity};
 
 /// How severe a report is where the robot is: the FMECA by autonomy mode, its operator column
 /// wherever the operator decides.

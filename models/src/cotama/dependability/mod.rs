@@ -10,11 +10,12 @@ mod fmeca;
 mod rule;
 mod table;
 
+pub use crate::severity::Persistence;
 pub use adjustment::{Adjusted, Adjustment, Adjustments};
 pub use diagnosis::{
     Diagnosis, Probe, Probes, ambiguity_groups, are_confusable, confusable_pairs, diagnose,
     is_detectable, shared_flags, undetectable, unwatched,
 };
 pub use flags::{Flag, Flags};
-pub use rule::{Description, Persistence, Rule, Signature};
+pub use rule::{Description, Rule, Signature};
 pub use table::{FailureMode, FailureModes, RULES, TEXTS};

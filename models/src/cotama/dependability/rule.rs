@@ -5,28 +5,7 @@ use super::flags::Flags;
 use crate::cotama::decisions::{Class, Report, Severity};
 use crate::cotama::label::Label;
 use crate::cotama::modules::{Modules, Resources};
-
-/// How long a fault stays.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Persistence {
-    /// Until repaired.
-    Permanent,
-    /// The failure passes.
-    Transient,
-    /// The failure comes and goes.
-    Intermittent,
-}
-
-impl Persistence {
-    /// Returns the name in the FMECA.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Permanent => "permanent",
-            Self::Transient => "transient",
-            Self::Intermittent => "intermittent",
-        }
-    }
-}
+use crate::severity::Persistence;
 
 /// How a failure mode shows (inferred from its detection and its effect): it is possible while the
 /// flags raised are all of `always` and some of `sometimes`.

@@ -6,11 +6,12 @@
 
 use super::adjustment::Adjustment;
 use super::flags::{Flag, Flags};
-use super::rule::{Description, Persistence, Rule, Signature};
+use super::rule::{Description, Rule, Signature};
 use crate::cotama::decisions::{Class, Report, Severity};
 use crate::cotama::label::Label;
 use crate::cotama::members::members;
 use crate::cotama::modules::{Module, Modules, Resource, Resources};
+use crate::severity::Persistence;
 
 rows! {
     Son1 "SON1" "perceive obstacles" "sonar array" "one transducer stuck at maximum range" {

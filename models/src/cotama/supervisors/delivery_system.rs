@@ -5,9 +5,9 @@ use super::hierarchy::{
     global, local, path_following, recovering_path_following, recovering_teleoperation,
     teleoperation,
 };
-use super::robot::permit;
 use super::status_vector::{observation, recovering_observation};
 use super::surroundings::{faults, operator, recovering_faults};
+use crate::level::permit;
 use cotama_core::system;
 
 system! {

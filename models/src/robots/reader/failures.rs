@@ -1,13 +1,13 @@
 //! Reading the failures of a robot.
 
 use super::{Names, parts, words};
-use crate::cotama::{Persistence, Severity};
 use crate::fmeca::thousandths;
 use crate::missions::reader::fields::Fields;
 use crate::missions::{Diagnostic, Spanned};
 use crate::names::quoted;
 use crate::robots::known::{PERSISTENCES, RESTARTS, SEVERITIES, TIMES};
 use crate::robots::{Failure, Motion, Parts, Restarts};
+use crate::severity::{Persistence, Severity};
 use cotama_core::units::Millis;
 
 /// The longest mean time: a million years.

@@ -31,7 +31,7 @@ pub(super) use own::defects;
 pub use rust_source::to_rust;
 
 use super::{Mode, Robot, SubObjective};
-use crate::cotama::permit;
+use crate::level::permit;
 use cotama_core::net::owned::OwnedNet;
 use joined::Joined;
 pub(super) use nets::lost;

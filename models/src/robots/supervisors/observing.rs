@@ -53,7 +53,7 @@ pub(super) fn observation(robot: &Robot) -> OwnedNet {
         net.line(line.raises(&flag).emits(tells));
         // Known already, but worse than what told of it, or answered by a setting too.
         let worst = report.autonomous.max(report.operator);
-        if worst >= crate::cotama::Severity::Hard || report.sets.is_some() {
+        if worst >= crate::severity::Severity::Hard || report.sets.is_some() {
             net.line(again.named(format!("{name}_again")));
         }
     }

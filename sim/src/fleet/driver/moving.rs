@@ -2,10 +2,9 @@
 
 use super::supervisors::{KIND, Kind};
 use crate::body::Drive;
-use crate::robots::adapted::Adapted;
 use crate::robots::failing::{Demand, Failures, mode};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
-use cotama_models::robots::{Mode, Where};
+use cotama_models::level::{Adapted, Mode, Where};
 
 /// Orders of the supervisors until the next round.
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +68,7 @@ impl Moving {
     pub(super) fn demand(&self, orders: &Orders) -> Demand {
         let (kind, mode): (&Kind, _) = (&KIND, mode(KIND.robot, orders.place));
         let runs = orders.configuration().and_then(|it| kind.robot.configurations.get(it));
-        let left = u64::from(self.adapted.speed(kind.robot, Millis(self.now), mode));
+        let left = u64::from(self.adapted.speed(&kind.tables, Millis(self.now), mode));
         let speed = runs.filter(|_| orders.permits).map_or(0, |it| it.speed.0 * left / 1_000);
         let braked = || Millimetres(self.drive.x().0 + self.drive.braking_distance().0 + 1);
         Demand {
@@ -88,7 +87,7 @@ impl Moving {
         while self.now + period <= now {
             let (before, start) = (self.drive, Millis(self.now));
             self.failures.end(kind.robot, start, |_| false);
-            self.adapted.see(kind.robot, &self.failures, start);
+            self.see(start);
             let demand = self.demand(orders);
             self.failures.go(kind.robot, start, &demand, &mut self.drive);
             self.now += period;
@@ -112,8 +111,15 @@ impl Moving {
             }
             self.draw(orders, times);
             self.now += times * period;
-            self.adapted.see(kind.robot, &self.failures, Millis(self.now - period));
+            self.see(Millis(self.now - period));
         }
+    }
+
+    /// Observers look whether settings are still needed, and whether what is lost works again.
+    fn see(&mut self, now: Millis) {
+        let kind: &Kind = &KIND;
+        let broken = self.failures.broken_losses(kind.robot, &kind.tables);
+        self.adapted.see(self.failures.shown(&kind.tables), broken, now);
     }
 
     /// In how many periods from now on it goes on as in the last one, which was even.
@@ -134,7 +140,8 @@ impl Moving {
     pub(super) fn changes(&self) -> impl Iterator<Item = Millis> {
         let just_before = Millis(self.now.saturating_sub(1));
         let failures = self.failures.changes(KIND.robot, just_before);
-        let settings = self.adapted.ends_at(KIND.robot, &self.failures, just_before);
+        let shown = self.failures.shown(&KIND.tables);
+        let settings = self.adapted.ends_at(&KIND.tables, shown, just_before);
         failures.into_iter().chain(settings)
     }
 

@@ -6,9 +6,9 @@ use cotama_core::net::owned::View;
 use cotama_core::player::{Loaded, Packed};
 use cotama_core::system::{Component, System};
 use cotama_core::units::{Millis, Milliwatts};
-use cotama_models::cotama::Cause;
+use cotama_models::level::{Cause, Level, Tables, Told};
 use cotama_models::robots::supervisors::{self, OwnedSystem};
-use cotama_models::robots::{Body, Level, Robot, Told, members};
+use cotama_models::robots::{Body, OwnedTables, Robot, members};
 use cotama_models::team::scenario;
 use std::sync::LazyLock;
 
@@ -20,6 +20,7 @@ pub(super) type Supervisors = Level<'static, Loaded<'static, SMALL, 0, SLOTS>, S
 pub(super) struct Kind {
     pub(super) robot: &'static Robot,
     pub(super) body: &'static Body,
+    pub(super) tables: Tables<'static>,
     /// The supervisors of a robot without a task of which nothing is known to be lost.
     at_rest: Supervisors,
     /// The number of the observation module among the nets.
@@ -34,14 +35,18 @@ const MOST_TRIES: usize = 20;
 pub(super) static KIND: LazyLock<Kind> = LazyLock::new(|| {
     let robot = scenario::robot().expect("it is shipped");
     let steps = scenario::steps();
-    let system = lent(supervisors::of_mission(robot, &steps));
+    let system = supervisors::of_mission(robot, &steps);
+    let tables: &'static OwnedTables = Box::leak(Box::new(OwnedTables::of(robot, &steps, &system)));
+    let tables: &'static Tables<'static> = Box::leak(Box::new(tables.view()));
+    let system = lent(system);
     let packed = Packed::of(&system).expect("a test plays it");
     let packed: &'static Packed<SMALL, 0, SLOTS> = Box::leak(Box::new(packed));
     let configurations = 0..robot.configurations.len();
     Kind {
         robot,
         body: robot.body.as_ref().expect("the shipped robot has a body"),
-        at_rest: Level::start(robot, steps, packed.load(&system)),
+        tables: *tables,
+        at_rest: Level::start(tables, packed.load(&system)),
         observation: system.components.iter().position(|it| it.name == "gom"),
         powers: configurations.map(|it| power(robot, it)).collect(),
     }

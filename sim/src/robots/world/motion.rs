@@ -10,7 +10,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// The robot goes on for a period: who holds a permit moves it.
     pub(super) fn travel(&mut self) {
         let before = self.drive.x();
-        let permitted = self.level.permits();
+        let permitted = self.level().permits();
         let demand = self.demand();
         if self.hindered.waits() {
             self.drive.stand();
@@ -20,17 +20,17 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         self.hindered.take(&mut self.drive, before);
         let power = self.hindered.real(self.mission, before, self.power(moved));
         self.energy_uj = self.energy_uj.saturating_add(power.0.saturating_mul(self.body.period.0));
-        self.run.moved_when_safe |= moved && self.level.global() == Global::Safe;
+        self.run.moved_when_safe |= moved && self.level().global() == Global::Safe;
         self.measure(before, permitted);
     }
 
     /// Returns what is demanded of the motors: the pace of what runs while it has a permit.
     pub(super) fn demand(&self) -> Demand {
-        let goes = self.level.permits() && !self.hindered.waits();
+        let goes = self.level().permits() && !self.hindered.waits();
         Demand {
             speed: if goes { self.pace().0 } else { MillimetresPerSecond(0) },
             most: self.body.speed_max,
-            halt: self.level.is_halted(),
+            halt: self.level().is_halted(),
             end: Millimetres(self.goal().0 + self.hindered.owed().0),
             led: mode(self.robot, self.place) == Some(Mode::Operator),
         }
@@ -71,8 +71,8 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let (speed, power) = self.planning.pace(self.activity(), runs);
         let allowed = runs.and_then(|it| self.robot.configurations.get(it)).map(|it| it.speed);
         let allowed = allowed.unwrap_or(MillimetresPerSecond(0));
-        let left =
-            u64::from(self.adapted.speed(self.robot, self.now, mode(self.robot, self.place)));
+        let (adapted, mode_now) = (self.decider.adapted(), mode(self.robot, self.place));
+        let left = u64::from(adapted.speed(self.tables(), self.now, mode_now));
         let allowed = MillimetresPerSecond(allowed.0 * left / 1_000);
         // A drive by hand has no planned option.
         let by_hand = mode(self.robot, self.place) == Some(Mode::Operator);
@@ -86,7 +86,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// Returns the power of the robot: that of its pace while it moves, or that of its task where
     /// it stands for one; else that of rest.
     pub(super) fn power(&self, moved: bool) -> Milliwatts {
-        if matches!(self.level.global(), Global::Does(_)) && self.objective_stands() {
+        if matches!(self.level().global(), Global::Does(_)) && self.objective_stands() {
             return self.planning.pace(self.activity(), None).1;
         }
         if moved || self.drive.speed().0 > 0 {

@@ -11,7 +11,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// Passes over periods in which nothing happens, up to the next second, in which margins are
     /// looked at.
     pub(super) fn pass_over(&mut self) {
-        let busy = !self.calm || !self.untold.is_empty() || self.level.player().round_is_due();
+        let busy = !self.calm || !self.decider.listens() || self.level().player().round_is_due();
         let held = self.hindered.waits() || self.hindered.owed() > Millimetres(0);
         if busy
             || held
@@ -26,8 +26,9 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let mut most = until(Millis((self.now.0 / 1_000 + 1) * 1_000));
         most = most.min(until(LONGEST)).min(self.failures.unseen_for(self.robot, self.place));
         most = self.watching.late_at().map_or(most, |it| most.min(until(it)));
-        let returns = self.adapted.returns_at(self.robot, &self.failures);
-        let adapts = self.adapted.ends_at(self.robot, &self.failures, self.now);
+        let returns = self.decider.adapted().returns_at();
+        let shown = self.failures.shown(self.tables());
+        let adapts = self.decider.adapted().ends_at(self.tables(), shown, self.now);
         most = returns.into_iter().chain(adapts).fold(most, |most, it| most.min(until(it)));
         let changes = self.failures.changes(self.robot, self.now);
         most = changes.map_or(most, |it| most.min(until(it)));
@@ -41,7 +42,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         for border in borders.chain(self.hindered.next()).filter(|it| *it > self.drive.x()) {
             most = most.min(self.drive.times_before(border, self.body.period).unwrap_or(0));
         }
-        let waits = match self.level.global() {
+        let waits = match self.level().global() {
             Global::Does(_) if self.objective_stands() => {
                 let activity = self.planning.activity(self.objective, self.drive.x().0);
                 until(Millis(self.objective_since.0 + self.planning.standing(activity).0))
@@ -73,7 +74,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         self.now.0 += self.body.period.0 * most;
         self.run.rounds += most;
         let last = Millis(self.now.0.saturating_sub(self.body.period.0));
-        self.adapted.see(self.robot, &self.failures, last);
+        self.see(last);
     }
 
     /// Whether the robot would go on at its speed for a period.

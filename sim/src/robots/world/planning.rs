@@ -1,15 +1,16 @@
 //! Planning again: around what is lost, with what works again, and where a limit is in danger.
 
+use super::World;
 use super::records::Recording;
-use super::{Cause, Failures, Told, World};
 use crate::plan::Assessed;
 use crate::record::Recorder;
 use crate::robots::failing::mode;
 use crate::run::PlanCause;
 use cotama_core::hardware::Equipment;
 use cotama_core::player::Program;
-use cotama_models::cotama::Severity;
+use cotama_models::level::Cause;
 use cotama_models::robots::{Mode, Parts};
+use cotama_models::severity::Severity;
 
 impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// Plans around what is known to be lost with a failure.
@@ -29,19 +30,6 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         if !self.planning.needs_no_more(&self.progress(), self.units()) {
             let planned = self.plans(PlanCause::Failure(failure), recording);
             self.has_plan(planned, recording);
-        }
-    }
-
-    /// Tells of lost parts that have worked again for long enough.
-    pub(super) fn return_what_works(&mut self) {
-        let reports = self.robot.losses.reports.iter();
-        let known = reports.filter(|it| it.failures.iter().any(|it| self.known_rows.contains(it)));
-        let known = known.filter_map(|it| it.loss).fold(0, |set, it| set | 1 << it);
-        for loss in self.adapted.back(self.robot, &self.failures, known, self.now) {
-            if !self.untold.iter().any(|it| it.0 == Told::Back(loss)) {
-                self.untold.push_back((Told::Back(loss), Cause(0)));
-                self.calm = false;
-            }
         }
     }
 
@@ -120,9 +108,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         if let Some(it) = self.run.conduct.last_mut() {
             (it.detected, it.taken_for) = (Some(self.now), vec![failure]);
         }
-        let report = Failures::report(self.robot, failure);
-        let cause = Cause(u16::try_from(begun).unwrap_or(u16::MAX));
-        self.untold.extend(report.map(|it| (Told::Report(it), cause)));
+        self.decider.report(failure, Cause(u16::try_from(begun).unwrap_or(u16::MAX)));
         self.record_diagnosis(recording, &[begun - 1], &[], &[failure]);
     }
 }

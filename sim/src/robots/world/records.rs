@@ -9,8 +9,10 @@ use cotama_core::net::TransitionId;
 use cotama_core::player::Program;
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
-use cotama_models::cotama::{Cause, Class, Mode as Autonomy};
+use cotama_models::cotama::Mode as Autonomy;
+use cotama_models::level::Cause;
 use cotama_models::robots::{self, Mode, Where};
+use cotama_models::severity::Class;
 
 /// The recorder, and how much of a run it has.
 pub(in crate::robots) struct Recording<'r, R> {
@@ -48,6 +50,18 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         (self.now.0 * 1_000, self.drive.x().0)
     }
 
+    /// Returns the names of a transition.
+    pub(super) fn fired(&self, id: Of<TransitionId>) -> Option<robots::Fired<'_>> {
+        robots::fired(self.robot, &self.level().player().program().system(), id)
+    }
+
+    /// Returns the name of an event.
+    fn name_of(&self, told: robots::Told) -> String {
+        let event = self.tables().event(told);
+        let system = self.level().player().program().system();
+        event.map_or_else(String::new, |it| robots::name_of(&system, it))
+    }
+
     fn failure_id(&self, number: usize) -> String {
         self.robot.failures.get(number).map_or_else(String::new, |it| it.id.clone())
     }
@@ -56,7 +70,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let (t_us, x_mm) = self.here();
         let failure = u16::try_from(self.run.conduct.len()).unwrap_or(u16::MAX);
         let (mode, during) =
-            (self.failure_id(number), self.level.place().name(self.robot).to_owned());
+            (self.failure_id(number), self.robot.name_of(self.level().place()).to_owned());
         let what = self.robot.failures.get(number).map(|it| match it.item.as_str() {
             "" => it.mode.clone(),
             item => format!("{item}, {}", it.mode),
@@ -73,7 +87,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     ) {
         let (t_us, x_mm) = self.here();
         let names: Vec<_> = self.robot.flags().map(|it| it.1).collect();
-        let mode = crate::robots::failing::mode(self.robot, self.level.place());
+        let mode = crate::robots::failing::mode(self.robot, self.level().place());
         let worst = taken.iter().filter_map(|it| self.robot.failures.get(*it));
         let worst = worst.map(|it| it.severity(mode.unwrap_or(Mode::Autonomous))).max();
         let Some(severity) = worst else { return };
@@ -81,7 +95,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let report = reports.iter().find(|it| taken.iter().any(|of| it.failures.contains(of)));
         let decided = reports.iter().position(|it| Some(it) == report).map(|report| {
             let lost = self.robot.lost(self.known);
-            robots::decide(self.robot, report, robots::Situation { at: self.level.place(), lost })
+            robots::decide(self.robot, report, robots::Situation { at: self.level().place(), lost })
         });
         to.put(|| {
             Record::Diagnosis(Diagnosis {
@@ -103,7 +117,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
 
     pub(super) fn record_told<R: Recorder>(&self, to: &mut Recording<'_, R>, told: robots::Told) {
         let (t_us, x_mm) = self.here();
-        let (round, event) = (self.run.rounds, self.level.name_of(told));
+        let (round, event) = (self.run.rounds, self.name_of(told));
         to.put(|| Record::Told(Told { t_us, x_mm, round, event }));
     }
 
@@ -113,7 +127,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         id: Of<TransitionId>,
         cause: Cause,
     ) {
-        let Some(fired) = self.level.fired(id) else { return };
+        let Some(fired) = self.fired(id) else { return };
         let (t_us, x_mm) = self.here();
         to.put(|| {
             Record::Fired(Fired {
@@ -142,7 +156,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     ) {
         let (t_us, x_mm) = self.here();
         let Some(it) = self.run.conduct.get(conduct) else { return };
-        let fired = self.level.fired(by);
+        let fired = self.fired(by);
         to.put(|| {
             Record::Decision(Decision {
                 t_us,
@@ -178,7 +192,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let (t_us, x_mm) = self.here();
         let runs = self.configuration().and_then(|it| self.robot.configurations.get(it));
         let configuration = runs.map(|it| it.name.clone());
-        let place = self.level.place();
+        let place = self.level().place();
         let mode = match (place, crate::robots::failing::mode(self.robot, place)) {
             (Where::Waits, _) => Autonomy::HandOver,
             (_, Some(Mode::Operator)) => {

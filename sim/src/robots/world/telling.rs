@@ -9,24 +9,24 @@ use crate::robots::operator::View;
 use cotama_core::net::TransitionId;
 use cotama_core::player::{Firing, Names, Observer, Program};
 use cotama_core::system::Of;
-use cotama_models::cotama::Cause;
-use cotama_models::robots::{Decision, Global, Mode, Told, Where};
+use cotama_models::level::Cause;
+use cotama_models::robots::{Decision, Global, Mode, Told, Where, fired};
 
 impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// The supervisors take a round, and are told one thing.
     pub(super) fn round<R: Recorder>(&mut self, recording: &mut Recording<'_, R>) {
         let mut seen = Seen::default();
-        self.level.round(self.now, &mut seen);
+        self.decider.round(self.now, &mut seen);
         self.run.rounds += 1;
         self.note_all(recording, &mut seen);
         self.follow();
-        let (told, cause) = match self.untold.pop_front() {
+        let (told, cause) = match self.decider.next() {
             Some((told, cause)) => (Some(told), cause),
             None => self.says(),
         };
         if let Some(told) = told {
             self.calm = false;
-            if self.level.tell(self.now, told, cause, &mut seen) {
+            if self.decider.tell(self.now, told, cause, &mut seen).0 {
                 self.run.told.push((self.run.rounds, told));
                 self.record_told(recording, told);
                 if let Told::Back(loss) = told {
@@ -37,7 +37,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         self.note_all(recording, &mut seen);
         self.follow();
         self.arrive(recording);
-        if let Some(monitor) = self.watching.look(self.now, self.level.player())
+        if let Some(monitor) = self.watching.look(self.now, self.decider.level().player())
             && self.run.violated.is_none()
         {
             let fired = self.last.1.clone();
@@ -57,7 +57,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     fn says(&mut self) -> (Option<Told>, Cause) {
         let stands = self.drive.speed().0 == 0;
         let none = (None, Cause(0));
-        match self.level.global() {
+        match self.level().global() {
             Global::Secures => (stands.then_some(Told::Stopped), Cause(0)),
             Global::Safe | Global::Done => none,
             Global::Waits => (Some(Told::Begins), Cause(0)),
@@ -104,7 +104,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
 
     /// Follows the global supervisor to its objective.
     fn follow(&mut self) {
-        let global = self.level.global();
+        let global = self.level().global();
         if global == self.global {
             return;
         }
@@ -126,7 +126,8 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         id: Of<TransitionId>,
         cause: Cause,
     ) {
-        let Some(fired) = self.level.fired(id) else { return };
+        let system = self.decider.level().player().program().system();
+        let Some(fired) = fired(self.robot, &system, id) else { return };
         let (net, asks) = (fired.net, fired.outputs.contains(&"op_request"));
         if net == "faults" || net == "operator" {
             return;
@@ -187,12 +188,15 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
 
     /// A setting answers a report.
     fn set(&mut self, report: usize) {
-        self.adapted.answer(self.robot, &mut self.failures, report, self.now);
+        let of = self.robot.losses.reports.get(report);
+        if let Some((of, setting)) = of.and_then(|it| Some((it, it.sets.as_ref()?))) {
+            self.failures.set(&of.failures, setting);
+        }
     }
 
     /// Notes where the supervisors have come to.
     fn arrive<R: Recorder>(&mut self, recording: &mut Recording<'_, R>) {
-        let place = self.level.place();
+        let place = self.level().place();
         if place == self.place {
             return;
         }
