@@ -13,19 +13,19 @@ use crate::answers::model::{ModelsAnswer, SimulateAnswer};
 use crate::answers::new::NewAnswer;
 use crate::answers::team::TeamAnswer;
 use crate::answers::{AllocateAnswer, ListAnswer, PlanAnswer, ReplayAnswer, RunAnswer};
-use crate::args::{self, Cli, CompletionsArgs, ManArgs, MissionArg, SchemaArgs, SchemaName};
+use crate::args::{self, Cli, CompletionsArgs, ManArgs, SchemaArgs, SchemaName, TableArgs};
 use crate::catalogue::{self, Kind};
 use crate::exit::{Exit, Failure};
 use crate::file_schemas;
-use crate::mission;
 use crate::output::Screen;
 use crate::robot;
 use crate::team::Team;
+use crate::{mission, model};
 use clap::CommandFactory;
 use clap::builder::PossibleValuesParser;
 use clap_complete::Shell;
 use cotama_models::missions::embedded;
-use cotama_models::robots::supervisors;
+use cotama_models::robots::to_rust;
 use cotama_verification::conform::LINE_SCHEMA;
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
@@ -33,17 +33,30 @@ use schemars::transform::RecursiveTransform;
 use serde::Serialize;
 use serde_json::Value;
 
-/// `cotama table`: the tables of a mission, or the supervisors of a robot, as Rust source.
-pub(crate) fn table(args: &MissionArg, screen: &Screen) -> Result<Exit, Failure> {
+/// `cotama table`: the tables of a mission, or the decisional level of a robot, as Rust source.
+pub(crate) fn table(args: &TableArgs, screen: &Screen) -> Result<Exit, Failure> {
     if let Some(robot) = robot::robot(&args.mission)? {
-        let system = supervisors::system(&robot);
-        Screen::raw(supervisors::to_rust(&system).as_bytes())?;
+        let of = args.of.as_ref().map(|it| model::steps(&args.mission, &robot, it));
+        let steps = of.transpose()?.unwrap_or_default();
+        Screen::raw(LEVEL_HEAD.as_bytes())?;
+        Screen::raw(to_rust(&robot, &steps).as_bytes())?;
         return Ok(Exit::Success);
+    }
+    if args.of.is_some() {
+        let message = format!("--mission: `{}` is no robot", args.mission);
+        let help = "give the name of a robot, or the path of its file, before it";
+        return Err(Failure::new(message).help(help));
     }
     let mission = mission::load(&args.mission, Some(screen))?;
     Screen::raw(mission.scenario().to_rust(&mission.name).as_bytes())?;
     Ok(Exit::Success)
 }
+
+const LEVEL_HEAD: &str = "\
+//! The decisional level of a robot, printed from its file.
+#![allow(nonstandard_style)] // names are those of the file
+
+";
 
 /// `cotama schema`: the JSON schema of an answer, or of a file that users write.
 pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {

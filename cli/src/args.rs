@@ -236,13 +236,13 @@ Examples:
   $ cotama show patrol
   $ cotama show patrol > mine.toml && cotama plan mine.toml")]
     Show(MissionArg),
-    /// Prints the tables of a mission, or the supervisors of a robot, as Rust source for firmware
+    /// Prints the tables of a mission, or the decisional level of a robot, as Rust for firmware
     #[command(after_long_help = "\
 Examples:
   $ cotama table patrol > patrol_tables.rs
   $ cotama table patrol | head -1
-  $ cotama table transport > supervisors.rs   # as `net!` and `system!`")]
-    Table(MissionArg),
+  $ cotama table transport --mission shift > level.rs   # supervisors, facts, names")]
+    Table(TableArgs),
     /// Prints the JSON schema of a command's answer, or of a file that you write
     ///
     /// An editor that knows the schema of a mission completes its keys, explains them and marks
@@ -273,6 +273,15 @@ Examples:
 pub(crate) struct MissionArg {
     /// The name of a mission that comes with the program, the path of a mission file, or `-`
     pub(crate) mission: String,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct TableArgs {
+    /// The name of a mission or a robot that comes with the program, the path of its file, or `-`
+    pub(crate) mission: String,
+    /// Of a robot: its decisional level in this mission, whose objectives its global supervisor has
+    #[arg(long = "mission", value_name = "MISSION")]
+    pub(crate) of: Option<String>,
 }
 
 /// One JSON object in place of words.

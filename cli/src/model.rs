@@ -225,9 +225,14 @@ pub(crate) fn of_robot(name: &str, of: &str) -> Result<Found, Failure> {
         return Err(Failure::new(format!("--mission: `{name}` is no robot"))
             .help("give the name of a robot, or the path of its file, before it"));
     };
+    Ok(Found::under(&robot, &steps(name, &robot, of)?))
+}
+
+/// Returns the objectives of a mission of a robot, for its global supervisor.
+pub(crate) fn steps(name: &str, robot: &Robot, of: &str) -> Result<Vec<Step>, Failure> {
     let mission = mission::under(of, name)?;
     match mission.robot() {
-        Some(it) if *it.robot() == robot => Ok(Found::under(&robot, &mission.steps())),
+        Some(it) if it.robot() == robot => Ok(mission.steps()),
         other => {
             let other = other.map_or("none", |it| it.robot().name.as_str());
             let message = format!("--mission: the robot of `{of}` is {other}, not `{name}`");

@@ -7,6 +7,7 @@
 
 use cotama_core::units::Millis;
 use robot::link::Sender;
+use robot::robots::delivery::{STORED_BYTES, TABLES};
 use robot::scenes::{Channel, Memory, play_all};
 use robot::server::{Asked, PERIOD, PLAN, Served, Server};
 use robot::surroundings::{SEVEN_POINTS, Surroundings};
@@ -82,7 +83,10 @@ impl Talk {
             served = served.or(self.server.take(byte, tables, exact, |it| answered.push(it)));
         }
         match served {
-            Some(Served::Period) => self.stored = Some(self.server.control.store().to_vec()),
+            Some(Served::Period) => {
+                let mut bytes = [0; STORED_BYTES];
+                self.stored = self.server.control.store(&mut bytes).map(<[u8]>::to_vec);
+            }
             Some(Served::Other(HANG)) => {
                 // The hardware watchdog resets the board.
                 self.server = Server::default();
@@ -113,7 +117,7 @@ fn session(sent: &str, answered: &str, exact: bool) -> Result<()> {
         content.extend(given.to_bytes());
         // One period in ten goes over the noisy line.
         talk.say(&content, (period % 10 == 3).then_some(&mut line));
-        world.after(&talk.server.control.decider().requests());
+        world.after(&talk.server.control.decider().requests(Millis(period * 100)), TABLES);
         if period % 500 == 0 {
             let asked = Asked {
                 first: (period / 500) as u8,

@@ -12,17 +12,18 @@ use cotama_core::panorama::Panorama;
 use cotama_core::problem::Problem;
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
-use cotama_models::cotama::{NoPlans, local};
+use cotama_core::player::Program;
 use cotama_models::missions::tables::patrol::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
 use cotama_models::missions::tables::{EMPTY, Rest, remaining};
 use cotama_models::nets::ace::selection;
 use robot::control::{Control, PERIOD_MS};
+use robot::robots::{delivery, transport};
 use robot::dice::Dice;
 use robot::guard::Guard;
 use robot::link::{Receiver, Sender};
 use robot::message::Period;
 use robot::patrol::{CANDIDATES, COURSE, Patrol, Planner, STAGES, Tables, Workspace};
-use robot::surroundings::{SEVEN_POINTS, Surroundings};
+use robot::surroundings::{Incident, SEVEN_POINTS, Surroundings};
 use robot::trace::{Nowhere, Trace};
 use semihosting::println;
 
@@ -36,6 +37,12 @@ macro_rules! counted {
     }};
 }
 
+/// The transport robot loses its lidar, then its markers, then its wheels slip.
+const TRANSPORT: [Incident; 3] = [
+    Incident { at_mm: 10_000, failure: 0 },
+    Incident { at_mm: 20_000, failure: 1 },
+    Incident { at_mm: 30_000, failure: 2 },
+];
 /// So many random events for a net.
 const EVENTS: u32 = 4_000;
 
@@ -52,7 +59,8 @@ fn main() -> ! {
     allocators(workspace);
     missions(tables, &mut Planner::Rule, "by_the_rule");
     missions(tables, &mut Planner::Exact(workspace), "exactly");
-    println!("bytes the_state_of_the_control_loop {}", size_of::<Control>());
+    println!("bytes the_state_of_the_control_loop {}", size_of::<delivery::Control>());
+    println!("bytes the_state_of_the_transport_robot {}", size_of::<transport::Control>());
     println!("bytes a_problem {}", size_of::<Tables>());
     println!("bytes the_memory_of_the_exact_allocator {}", size_of::<Workspace>());
     board::exit(0)
@@ -87,23 +95,41 @@ fn nets() {
 }
 
 #[inline(never)]
-fn period(control: &mut Control, now: Millis, given: &Period) {
+fn period<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>(
+    control: &mut Control<P, W, C, S>,
+    now: Millis,
+    given: &Period,
+) {
     let mut nowhere = Nowhere;
-    let _ = control.period(now, given, &mut NoPlans, &mut Trace::new(&mut nowhere));
+    let _ = control.period(now, given, &mut Trace::new(&mut nowhere));
+}
+
+/// Lives through 400 s with these incidents.
+fn live<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>(
+    control: &mut Control<P, W, C, S>,
+    world: &mut Surroundings<'_>,
+    robot: &str,
+) {
+    let mut periods = 0;
+    for now in (0..4_000).map(|it| Millis(it * PERIOD_MS)) {
+        let given = world.before(now, control);
+        counted!(period(control, now, black_box(&given)));
+        let level = control.decider().level();
+        world.after(&control.decider().requests(now), level.tables());
+        periods += 1;
+    }
+    println!("batch a_period_of_the_decisional_level{robot} {periods}");
 }
 
 fn level() {
-    let (mut control, mut world) = (Control::default(), Surroundings::new(&SEVEN_POINTS));
-    let mut periods = 0;
-    for now in (0..4_000).map(|it| Millis(it * PERIOD_MS)) {
-        let given = world.before(now, &control);
-        counted!(period(&mut control, now, black_box(&given)));
-        world.after(&control.decider().requests());
-        periods += 1;
-    }
-    println!("batch a_period_of_the_decisional_level {periods}");
-    counted!(control.store());
+    let (mut control, mut world) =
+        (delivery::Control::default(), Surroundings::new(&SEVEN_POINTS));
+    live(&mut control, &mut world, "");
+    let mut bytes = [0; delivery::STORED_BYTES];
+    counted!(control.store(black_box(&mut bytes)).is_some());
     println!("batch the_state_as_bytes 1");
+    let mut other = transport::Control::default();
+    live(&mut other, &mut Surroundings::new(&TRANSPORT), ",_transport_robot");
 
     let mut guard = Guard::default();
     for now in (0..1_000).map(Millis) {

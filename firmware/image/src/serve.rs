@@ -6,7 +6,8 @@ use core::mem::MaybeUninit;
 use cortex_m::Peripherals;
 use cortex_m::interrupt::{Mutex, free};
 use cotama_core::units::Millis;
-use robot::control::{self, Control, PERIOD_MS, STORED_BYTES, Supervisors};
+use robot::control::PERIOD_MS;
+use robot::robots::delivery::{Control, STORED_BYTES, Supervisors, at_rest};
 use robot::guard::{Guard, STARVES_AFTER_MS};
 use robot::patrol::{Tables, Workspace};
 use robot::server::{Served, Server};
@@ -54,7 +55,8 @@ fn with(place: &'static mut MaybeUninit<Server>, supervisors: Supervisors) -> &'
 /// Stores the state, where it is another than the one that is stored.
 #[inline(never)]
 fn keep(store: &mut Store<Flash>, server: &Server, stored: &mut [u8; STORED_BYTES]) {
-    let state = server.control.store();
+    let mut state = [0; STORED_BYTES];
+    let _ = server.control.store(&mut state); // the room is its length
     if state != *stored && store.write(&state).is_ok() {
         *stored = state;
     }
@@ -67,7 +69,7 @@ pub(crate) fn serve(tables: &mut Tables, mut exact: Option<&mut Workspace>) -> !
     let place = cortex_m::singleton!(: MaybeUninit<Server> = MaybeUninit::uninit());
     let Some(place) = place else { board::exit(103) };
     let mut uart = Uart::start();
-    let server = with(place, control::at_rest());
+    let server = with(place, at_rest());
     let mut store = boot(server);
     let stored = cortex_m::singleton!(: [u8; STORED_BYTES] = [0; STORED_BYTES]);
     let Some(stored) = stored else { board::exit(103) };

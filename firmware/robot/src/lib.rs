@@ -10,6 +10,7 @@
 //! | [`message`] | what the frames say |
 //! | [`server`] | the robot behind its UART |
 //! | [`store`] | the last whole record, in two pages of flash |
+//! | [`robots`] | the robots, printed from their files |
 //! | [`trace`] | what a run leaves behind |
 //! | [`scenes`] | runs that are compared byte by byte |
 #![no_std]
@@ -21,6 +22,7 @@ pub mod guard;
 pub mod link;
 pub mod message;
 pub mod patrol;
+pub mod robots;
 pub mod scenes;
 pub mod server;
 pub mod store;

@@ -1,50 +1,66 @@
 //! Contents of the frames: the news of a period, and the requests.
 
-use cotama_models::cotama::{Body, Flags, Modules, Perceived, Requests, Word, operator};
+use cotama_models::level::{Drive, Perceived, Requests, Told};
 
 /// The input of the control loop in a period.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Period {
     /// News of observers and the scheduler.
     pub seen: Perceived,
     /// State of the drive.
-    pub body: Body,
-    /// A word of the mission, of the planner of paths, or of the operator.
-    pub said: Option<Word>,
+    pub drive: Drive,
+    /// A word of the mission, of the robot's programs, or of the operator.
+    pub said: Option<Told>,
 }
 
-/// The words, by their number.
-pub const WORDS: [Word; 11] = [
-    Word::MissionReceived,
-    Word::ObjectReceived,
-    Word::ObjectDelivered,
-    Word::WaitOver,
-    Word::PathReady,
-    Word::Operator(operator::Event::teleprogram),
-    Word::Operator(operator::Event::teleoperate),
-    Word::Operator(operator::Event::waypoints),
-    Word::Operator(operator::Event::new_path),
-    Word::Operator(operator::Event::arrived),
-    Word::Operator(operator::Event::gives_up),
-];
 const SILENT: u8 = 0xFF;
+
+/// The kind of a word, and the number that goes with it.
+const fn word(said: Told) -> [u8; 2] {
+    match said {
+        Told::Begins => [0, 0],
+        Told::Over(it) => [1, it as u8],
+        Told::Stopped => [2, 0],
+        Told::Reached(it) => [3, it as u8],
+        Told::Report(it) => [4, it as u8],
+        Told::Back(it) => [5, it as u8],
+        Told::Chooses(it) => [6, it as u8],
+        Told::Done(it) => [7, it as u8],
+        Told::GivesUp => [8, 0],
+    }
+}
+
+/// The word of a kind and a number; `None` where there is none.
+const fn told([kind, number]: [u8; 2]) -> Option<Told> {
+    let it = number as usize;
+    Some(match (kind, number) {
+        (0, 0) => Told::Begins,
+        (1, _) => Told::Over(it),
+        (2, 0) => Told::Stopped,
+        (3, _) => Told::Reached(it),
+        (4, _) => Told::Report(it),
+        (5, _) => Told::Back(it),
+        (6, _) => Told::Chooses(it),
+        (7, _) => Told::Done(it),
+        (8, 0) => Told::GivesUp,
+        _ => return None,
+    })
+}
 
 impl Period {
     /// Length in bytes.
-    pub const BYTES: usize = 26;
+    pub const BYTES: usize = 27;
 
-    /// As bytes, little endian: raised and lowered flags, the module they are about, the modules
-    /// that work, the body, the word.
+    /// As bytes, little endian: raised and lowered flags, the modules that work, the drive, the
+    /// word.
     pub fn to_bytes(&self) -> [u8; Self::BYTES] {
         let mut bytes = [0; Self::BYTES];
-        let Perceived { raised, lowered, part, works } = self.seen;
-        bytes[..8].copy_from_slice(&raised.bits().to_le_bytes());
-        bytes[8..16].copy_from_slice(&lowered.bits().to_le_bytes());
-        bytes[16..20].copy_from_slice(&part.bits().to_le_bytes());
-        bytes[20..24].copy_from_slice(&works.bits().to_le_bytes());
-        bytes[24] = u8::from(self.body.at_goal) | u8::from(self.body.stands) << 1;
-        let number = WORDS.iter().position(|it| Some(*it) == self.said);
-        bytes[25] = number.map_or(SILENT, |it| it as u8);
+        let Perceived { raised, lowered, works } = self.seen;
+        bytes[..8].copy_from_slice(&raised.to_le_bytes());
+        bytes[8..16].copy_from_slice(&lowered.to_le_bytes());
+        bytes[16..24].copy_from_slice(&works.to_le_bytes());
+        bytes[24] = u8::from(self.drive.at_goal) | u8::from(self.drive.stands) << 1;
+        bytes[25..].copy_from_slice(&self.said.map_or([SILENT, 0], word));
         bytes
     }
 
@@ -52,39 +68,32 @@ impl Period {
     pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
         let bytes: &[u8; Self::BYTES] = bytes.try_into().ok()?;
         let long = |at: usize| bytes[at..].first_chunk().map(|it| u64::from_le_bytes(*it));
-        let short = |at: usize| bytes[at..].first_chunk().map(|it| u32::from_le_bytes(*it));
-        let seen = Perceived {
-            raised: Flags::from_bits(long(0)?)?,
-            lowered: Flags::from_bits(long(8)?)?,
-            part: Modules::from_bits(short(16)?)?,
-            works: Modules::from_bits(short(20)?)?,
-        };
-        let body = match bytes[24] {
-            it @ 0..=3 => Body { at_goal: it & 1 != 0, stands: it & 2 != 0 },
+        let seen = Perceived { raised: long(0)?, lowered: long(8)?, works: long(16)? };
+        let drive = match bytes[24] {
+            it @ 0..=3 => Drive { at_goal: it & 1 != 0, stands: it & 2 != 0 },
             _ => return None,
         };
-        let said = match bytes[25] {
-            SILENT => None,
-            it => Some(*WORDS.get(usize::from(it))?),
+        let said = match [bytes[25], bytes[26]] {
+            [SILENT, 0] => None,
+            it => Some(told(it)?),
         };
-        Some(Self { seen, body, said })
+        Some(Self { seen, drive, said })
     }
 }
 
-/// The configuration of requests as a byte; 255 where nothing runs.
-pub fn configuration(requests: &Requests) -> u8 {
-    requests.configuration.map_or(0xFF, |it| it as u8)
-}
+/// Length of the requests in bytes.
+pub const REQUESTS_BYTES: usize = 22;
 
-/// The yes and no of requests: drive, halt, ask, alarm, from the lowest bit on.
-pub fn bits(requests: &Requests) -> u8 {
-    let Requests { drive, halt, ask, alarm, .. } = *requests;
-    u8::from(drive) | u8::from(halt) << 1 | u8::from(ask) << 2 | u8::from(alarm) << 3
-}
-
-/// Requests as bytes: configuration, yes and no, the fastest speed in mm/s.
-pub fn requests_to_bytes(requests: &Requests) -> [u8; 6] {
-    let mut bytes = [configuration(requests), bits(requests), 0, 0, 0, 0];
-    bytes[2..].copy_from_slice(&(requests.speed.0 as u32).to_le_bytes());
+/// Requests as bytes, little endian: the configuration, 255 where nothing runs; drive, halt, ask,
+/// alarm, from the lowest bit on; the fastest speed in mm/s; the reports whose settings hold; the
+/// modules that are to be started anew.
+pub fn requests_to_bytes(requests: &Requests, restarts: u64) -> [u8; REQUESTS_BYTES] {
+    let Requests { configuration, drive, speed, settings, halt, ask, alarm } = *requests;
+    let mut bytes = [0; REQUESTS_BYTES];
+    bytes[0] = configuration.map_or(0xFF, |it| it as u8);
+    bytes[1] = u8::from(drive) | u8::from(halt) << 1 | u8::from(ask) << 2 | u8::from(alarm) << 3;
+    bytes[2..6].copy_from_slice(&(speed.0 as u32).to_le_bytes());
+    bytes[6..14].copy_from_slice(&settings.to_le_bytes());
+    bytes[14..].copy_from_slice(&restarts.to_le_bytes());
     bytes
 }

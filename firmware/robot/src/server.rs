@@ -11,14 +11,14 @@
 //!
 //! Before an answer to a frame before which some are missing stands a [`MISSING`] with how many.
 
-use crate::control::{Control, PERIOD_MS};
+use crate::control::PERIOD_MS;
 use crate::link::{LONGEST, Received, Receiver, Sender};
-use crate::message::{Period, requests_to_bytes};
+use crate::message::{Period, REQUESTS_BYTES, requests_to_bytes};
 use crate::patrol::{Patrol, Planner, STAGES, Tables, Workspace};
+use crate::robots::delivery::Control;
 use crate::trace::{Nowhere, Trace};
 use cotama_core::hardware::Equipment;
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::NoPlans;
 use cotama_models::missions::tables::Rest;
 use cotama_models::missions::tables::patrol::ACTIVITIES;
 
@@ -82,10 +82,10 @@ impl Server {
             (Some(period), _) => {
                 let mut nowhere = Nowhere;
                 let mut trace = Trace::new(&mut nowhere);
-                let requests = self.control.period(self.now, &period, &mut NoPlans, &mut trace);
+                let (requests, restarts) = self.control.period(self.now, &period, &mut trace);
                 self.now = Millis(self.now.0 + PERIOD_MS);
-                let mut answer = [PERIOD; 7];
-                answer[1..].copy_from_slice(&requests_to_bytes(&requests));
+                let mut answer = [PERIOD; 1 + REQUESTS_BYTES];
+                answer[1..].copy_from_slice(&requests_to_bytes(&requests, restarts));
                 self.sender.send(&answer, put);
                 Some(Served::Period)
             }

@@ -7,8 +7,8 @@
 //! | `S` scene | number `u8` |
 //! | `F` fired | time ms `u32`, net `u16`, transition `u16`, cause `u16` |
 //! | `T` told | time ms `u32`, net `u16`, event `u16` |
-//! | `D` diagnosed | time ms `u32`, cause `u16`, flags `u64`, kind `u8`, failure modes `u64` |
-//! | `R` requests | time ms `u32`, configuration `u8`, bits `u8`, mm/s `u32`, two permille `u16` |
+//! | `D` diagnosed | time ms `u32`, flags `u64`, how many failures `u8`, a failure `u8` each |
+//! | `R` requests | time ms `u32`, the bytes of [`message`](crate::message) |
 //! | `P` plan | first activity `u8`, an alternative `u8` each; ms, mJ and quality `u64` each |
 //! | `N` no plan | first activity `u8` |
 //! | `H` happening | time us `u64`, task `u8`, what `u8` |
@@ -16,8 +16,6 @@
 //! | `B` restored | what `u8`, number `u32` |
 //! | `L` frame | what `u8`, number `u32` |
 //!
-//! A configuration of 255 is none; permille are of speed and of quality.
-
 use cotama_core::net::{EventId, TransitionId};
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
@@ -107,23 +105,23 @@ impl<'s, S: Sink> Trace<'s, S> {
             .put(&(event.id.0 as u16).to_le_bytes());
     }
 
-    /// Flags were diagnosed: how it ended (0 nothing, 1 unique, 2 ambiguous, 3 unexplained), and
-    /// which failure modes it may be.
-    pub fn diagnosed(&mut self, at: Millis, cause: u16, flags: u64, kind: u8, modes: u64) {
-        self.at(b'D', at)
-            .put(&cause.to_le_bytes())
-            .put(&flags.to_le_bytes())
-            .put(&[kind])
-            .put(&modes.to_le_bytes());
+    /// Flags were diagnosed: these failures, so many, it may be.
+    pub fn diagnosed(
+        &mut self,
+        at: Millis,
+        flags: u64,
+        count: u32,
+        failures: impl Iterator<Item = usize>,
+    ) {
+        self.at(b'D', at).put(&flags.to_le_bytes()).put(&[count as u8]);
+        for it in failures {
+            self.put(&[it as u8]);
+        }
     }
 
     /// Records that the requests have changed.
-    pub fn requests(&mut self, at: Millis, configuration: u8, bits: u8, speed: u32, of: [u16; 2]) {
-        self.at(b'R', at)
-            .put(&[configuration, bits])
-            .put(&speed.to_le_bytes())
-            .put(&of[0].to_le_bytes())
-            .put(&of[1].to_le_bytes());
+    pub fn requests(&mut self, at: Millis, requests: &[u8]) {
+        self.at(b'R', at).put(requests);
     }
 
     /// A plan from this activity on.

@@ -7,11 +7,10 @@
 use cotama_core::checksum::crc32;
 use cotama_core::units::Millis;
 use cotama_fuzz::Reader;
-use cotama_models::cotama::NoPlans;
 use embedded_storage::nor_flash::NorFlash;
-use robot::control::{Control, STORED_BYTES};
 use robot::link::{LONGEST, Received, Receiver, Sender};
 use robot::message::Period;
+use robot::robots::delivery::{Control, STORED_BYTES, TABLES};
 use robot::scenes::{FlashModel, Memory, PAGE};
 use robot::server::{Asked, PERIOD, PLAN, Served, Server};
 use robot::store::{self, Store};
@@ -110,16 +109,23 @@ fn read_served(bytes: &[u8]) -> bool {
         assert_eq!(answers.len(), usize::from(!matches!(served, None | Some(Served::Other(_)))));
         answered |= answers.iter().any(|it| matches!(it[0], PERIOD | PLAN));
     }
-    assert!(Control::default().restore(&server.control.store(), Millis(0)));
+    assert!(Control::default().restore(&state(&server.control), Millis(0)));
     answered
+}
+
+/// The bytes of a stored state.
+fn state(control: &Control) -> [u8; STORED_BYTES] {
+    let mut bytes = [0; STORED_BYTES];
+    assert!(control.store(&mut bytes).is_some());
+    bytes
 }
 
 /// Periods of noise.
 fn goes_on(control: &mut Control, seed: u64) {
-    let mut noise = Noise::new(seed);
+    let mut noise = Noise::new(seed, TABLES);
     for now in (1..=5).map(|it| Millis(it * 100)) {
         let period = noise.period();
-        let _ = control.period(now, &period, &mut NoPlans, &mut Trace::new(&mut ()));
+        let _ = control.period(now, &period, &mut Trace::new(&mut ()));
     }
 }
 
@@ -127,28 +133,26 @@ fn goes_on(control: &mut Control, seed: u64) {
 /// changes. Returns whether it was restored.
 fn restored(bytes: &[u8]) -> bool {
     let mut control = Control::default();
-    let before = control.store();
+    let before = state(&control);
     if !control.restore(bytes, Millis(0)) {
-        assert_eq!(control.store(), before);
+        assert_eq!(state(&control), before);
         return false;
     }
-    assert_eq!(control.store(), bytes);
+    assert_eq!(&state(&control)[..], bytes);
     goes_on(&mut control, 7);
-    assert!(Control::default().restore(&control.store(), Millis(0)));
+    assert!(Control::default().restore(&state(&control), Millis(0)));
     true
 }
 
-/// A state as it is; then as long as it must be with the checksums that it must have.
+/// A state as it is; then as long as it must be with the checksum that it must have.
 fn read_state(bytes: &[u8]) -> bool {
     let _ = restored(bytes);
     let mut whole = [0; STORED_BYTES];
     for (to, &from) in whole.iter_mut().zip(bytes) {
         *to = from;
     }
-    for (from, to) in [(0, STORED_BYTES - 18), (STORED_BYTES - 18, STORED_BYTES - 4)] {
-        let checksum = crc32(&whole[from..to]);
-        whole[to..to + 4].copy_from_slice(&checksum.to_le_bytes());
-    }
+    let checksum = crc32(&whole[..STORED_BYTES - 4]);
+    whole[STORED_BYTES - 4..].copy_from_slice(&checksum.to_le_bytes());
     restored(&whole)
 }
 
@@ -207,7 +211,7 @@ fn read_flash(bytes: &[u8]) -> bool {
 /// The corpora: frames, a session, two states and two flashes.
 #[test]
 fn the_corpora_are_files_of_the_robot() {
-    let mut noise = Noise::new(7);
+    let mut noise = Noise::new(7, TABLES);
     let period = |noise: &mut Noise| [&[PERIOD][..], &noise.period().to_bytes()].concat();
     let asked = Asked { first: 0, rest: 31_000, hardware: 0x1121, used: [0; 2] };
     let asked = [&[PLAN][..], &asked.to_bytes()].concat();
@@ -223,12 +227,12 @@ fn the_corpora_are_files_of_the_robot() {
     }
 
     let mut control = Control::default();
-    states::READER.keeps("rest", &control.store());
+    states::READER.keeps("rest", &state(&control));
     for seed in 0..20 {
         goes_on(&mut control, seed);
     }
-    assert_ne!(control.store(), Control::default().store());
-    states::READER.keeps("noise", &control.store());
+    assert_ne!(state(&control), state(&Control::default()));
+    states::READER.keeps("noise", &state(&control));
 
     let mut bytes = pages(&[]);
     let mut record = |page: usize, number: u32, content: &[u8]| {
@@ -240,5 +244,5 @@ fn the_corpora_are_files_of_the_robot() {
         bytes
     };
     flash::READER.keeps("one", &record(0, 1, b"once"));
-    flash::READER.keeps("two", &record(1, 2, &control.store()));
+    flash::READER.keeps("two", &record(1, 2, &state(&control)));
 }

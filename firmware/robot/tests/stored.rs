@@ -1,9 +1,8 @@
 //! Stored bytes: every damaged bit is refused, and a flash of any unit finds what it stored.
 
 use cotama_core::units::Millis;
-use cotama_models::cotama::NoPlans;
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashErrorKind, ReadNorFlash};
-use robot::control::{Control, STORED_BYTES};
+use robot::robots::delivery::{Control, STORED_BYTES, TABLES};
 use robot::store::{LONGEST, Store};
 use robot::surroundings::Noise;
 use robot::trace::Trace;
@@ -11,22 +10,29 @@ use std::collections::BTreeSet;
 
 /// The control of a robot after so many periods of noise.
 fn lived(seed: u64, periods: u64) -> Control {
-    let (mut control, mut noise) = (Control::default(), Noise::new(seed));
+    let (mut control, mut noise) = (Control::default(), Noise::new(seed, TABLES));
     for now in (0..periods).map(|it| Millis(it * 100)) {
-        let _ = control.period(now, &noise.period(), &mut NoPlans, &mut Trace::new(&mut ()));
+        let _ = control.period(now, &noise.period(), &mut Trace::new(&mut ()));
     }
     control
+}
+
+/// The bytes of a stored state.
+fn state(control: &Control) -> [u8; STORED_BYTES] {
+    let mut bytes = [0; STORED_BYTES];
+    assert!(control.store(&mut bytes).is_some());
+    bytes
 }
 
 #[test]
 fn a_state_with_any_bit_flipped_is_refused_and_nothing_changes() {
     let mut states = BTreeSet::new();
     for (seed, periods) in [(0, 0), (1, 40), (2, 80), (3, 120), (4, 200), (5, 500)] {
-        let bytes = lived(seed, periods).store();
+        let bytes = state(&lived(seed, periods));
         states.insert(bytes);
         let mut other = Control::default();
         assert!(other.restore(&bytes, Millis(0)));
-        assert_eq!(other.store(), bytes);
+        assert_eq!(state(&other), bytes);
         // In the memory of one that has seen much, nothing of that is left.
         let mut used = lived(seed, periods);
         assert!(used.restore(&bytes, Millis(0)));
@@ -35,7 +41,7 @@ fn a_state_with_any_bit_flipped_is_refused_and_nothing_changes() {
             let mut damaged = bytes;
             damaged[bit / 8] ^= 1 << (bit % 8);
             assert!(!used.restore(&damaged, Millis(0)), "{periods} periods of {seed}, bit {bit}");
-            assert_eq!(used.store(), bytes);
+            assert_eq!(state(&used), bytes);
         }
         for length in (0..STORED_BYTES).chain([STORED_BYTES + 1]) {
             let mut longer = bytes.to_vec();

@@ -5,7 +5,8 @@ use embedded_storage::nor_flash::NorFlash;
 use robot::dice::Dice;
 use robot::guard::Guard;
 use robot::link::{LONGEST, Received, Receiver, Sender};
-use robot::message::Period;
+use robot::message::{Period, REQUESTS_BYTES};
+use robot::robots::delivery::TABLES;
 use robot::scenes::{FlashModel, Memory, Power, Scene, play_all, send};
 use robot::server::{Asked, PERIOD, PLAN, Served, Server, UNKNOWN};
 use robot::store::{self, Store};
@@ -114,7 +115,7 @@ fn the_board_boots_with_the_last_whole_state_after_each_of_500_power_cuts() {
 
 #[test]
 fn a_period_survives_the_way_as_bytes_and_other_bytes_are_none() {
-    let mut noise = Noise::new(7);
+    let mut noise = Noise::new(7, TABLES);
     for _ in 0..1_000 {
         let period = noise.period();
         assert_eq!(Period::from_bytes(&period.to_bytes()), Some(period));
@@ -166,9 +167,9 @@ fn answers(server: &mut Server, sender: &mut Sender, content: &[u8]) -> (Option<
 fn a_server_answers_each_request() {
     let (mut server, mut sender) = (Server::default(), Sender::default());
     let mut period = vec![PERIOD];
-    period.extend(Noise::new(0).period().to_bytes());
+    period.extend(Noise::new(0, TABLES).period().to_bytes());
     let (served, answer) = answers(&mut server, &mut sender, &period);
-    assert_eq!((served, answer.len()), (Some(Served::Period), 7));
+    assert_eq!((served, answer.len()), (Some(Served::Period), 1 + REQUESTS_BYTES));
 
     // The whole patrol, nothing used: the plan of the published mission by the rule.
     let asked = Asked { first: 0, rest: 31_000, hardware: 0x1121, used: [0; 2] };

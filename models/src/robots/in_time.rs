@@ -25,7 +25,7 @@ pub(super) fn is(robot: &Robot, at: &Places, sink: &Sink) -> bool {
 }
 
 /// Returns the modules of a configuration that have a cost, the most urgent first, each as a task.
-fn tasks<'r>(robot: &'r Robot, it: &Configuration) -> (Vec<&'r Module>, Vec<Task>) {
+pub(super) fn tasks<'r>(robot: &'r Robot, it: &Configuration) -> (Vec<&'r Module>, Vec<Task>) {
     let all = with_needs(robot, it.required | it.optional);
     let mut modules: Vec<_> = members(all).filter_map(|it| robot.modules.get(it)).collect();
     modules.sort_by_key(|it| (it.priority, it.deadline));

@@ -20,6 +20,7 @@ mod liveness;
 mod logs;
 mod mutants;
 mod mutations;
+#[allow(nonstandard_style, reason = "names are those of a robot's file")]
 mod printed_robot;
 mod reactions;
 mod reconstruction;

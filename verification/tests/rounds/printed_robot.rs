@@ -1,6 +1,3 @@
-//! The supervisors of a robot, printed from its file.
-#![allow(nonstandard_style)] // names are those of the file
-
 cotama_core::net! {
     /// Global supervisor: one drive after another, or security.
     pub mod net_gs {

@@ -5,13 +5,13 @@
 //! of either, which leaves any of the bits that were to change. A record that was whole may be
 //! damaged later as well.
 
-use crate::control::{Control, PERIOD_MS, STORED_BYTES};
+use crate::control::PERIOD_MS;
 use crate::dice::Dice;
+use crate::robots::delivery::{Control, STORED_BYTES, TABLES};
 use crate::store::{LONGEST, Store};
 use crate::surroundings::Noise;
 use crate::trace::{Sink, Trace};
 use cotama_core::units::Millis;
-use cotama_models::cotama::NoPlans;
 use embedded_storage::nor_flash::{
     ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash,
 };
@@ -184,15 +184,16 @@ impl Power {
             return false;
         }
 
-        let mut noise = Noise::new(u64::from(self.boots));
+        let mut noise = Noise::new(u64::from(self.boots), TABLES);
         let words = self.dice.roll(600);
         self.damaged = false;
         let mut flash = store.close();
         flash.powered(words);
         (store, _) = Store::open(flash, &mut content);
         for now in (0..).map(|it| Millis(it * PERIOD_MS)) {
-            let _ = control.period(now, &noise.period(), &mut NoPlans, trace);
-            let bytes = control.store();
+            let _ = control.period(now, &noise.period(), trace);
+            let mut bytes = [0; STORED_BYTES];
+            let _ = control.store(&mut bytes); // the room is its length
             let next = store.number().unwrap_or(0).wrapping_add(1);
             self.torn = (next, bytes);
             if store.write(&bytes).is_err() {

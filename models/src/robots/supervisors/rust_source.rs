@@ -9,7 +9,8 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 /// The system as Rust source that needs `cotama-core` alone: a module for each net, and one of
-/// the name of the system.
+/// the name of the system. Names are those of the file: who includes it allows
+/// `nonstandard_style`.
 ///
 /// ```
 /// use cotama_models::robots::{Robot, supervisors};
@@ -28,7 +29,6 @@ struct Source<'s>(&'s OwnedSystem);
 impl fmt::Display for Source<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self(system) = self;
-        f.write_str(HEAD)?;
         for (name, net) in &system.nets {
             self::net(f, name, net)?;
         }
@@ -72,12 +72,6 @@ impl fmt::Display for Source<'_> {
         f.write_str("        }\n        laws { left_to_checker; }\n    }\n}\n")
     }
 }
-
-const HEAD: &str = "\
-//! The supervisors of a robot, printed from its file.
-#![allow(nonstandard_style)] // names are those of the file
-
-";
 
 /// The name of a net's module: no net of its own is named so.
 fn module(name: &str) -> String {
