@@ -10,6 +10,7 @@ set -uo pipefail
 here=$(realpath "$(dirname "$0")")
 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-$here/../../target}")/c
 export CARGO_TARGET_DIR
+unset COTAMA_MISSION # what is compared is the delivery
 cd "$here" || exit 1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -54,30 +55,37 @@ else
     skip "include/cotama.h is what cbindgen makes" "no cbindgen (cargo install cbindgen)"
 fi
 
+# The numbers of the delivery robot are what the build script makes of its file.
+same_numbers() {
+    cargo run --quiet --locked --example robot_header >"$work/cotama_robot.h" &&
+        diff include/cotama_robot.h "$work/cotama_robot.h"
+}
+check "include/cotama_robot.h is what the build script makes" same_numbers
+
 check "format" cargo fmt --all --check
 check "lints" cargo clippy --quiet --locked --workspace --examples -- -D warnings
 check "the static library" cargo build --quiet --locked --release -p cotama-c-library
 library=$CARGO_TARGET_DIR/release/libcotama.a
 
 strict=(-Wall -Wextra -pedantic -Werror -Iinclude)
-echo '#include "cotama.h"' >"$work/only.c"
+printf '#include "%s"\n' cotama_robot.h cotama.h >"$work/only.c"
 cp "$work/only.c" "$work/only.cpp"
 for cc in gcc clang; do
     if has $cc; then
-        check "the header alone as C11, $cc" $cc -std=c11 "${strict[@]}" -fsyntax-only \
+        check "the headers alone as C11, $cc" $cc -std=c11 "${strict[@]}" -fsyntax-only \
             "$work/only.c"
         check "the example as C11, $cc" $cc -std=c11 "${strict[@]}" -g example.c "$library" \
             -o "$work/example-$cc"
     else
-        skip "the header and the example as C11, $cc" "no $cc"
+        skip "the headers and the example as C11, $cc" "no $cc"
     fi
 done
 for cxx in g++ clang++; do
     if has $cxx; then
-        check "the header alone as C++17, $cxx" $cxx -std=c++17 "${strict[@]}" -fsyntax-only \
+        check "the headers alone as C++17, $cxx" $cxx -std=c++17 "${strict[@]}" -fsyntax-only \
             "$work/only.cpp"
     else
-        skip "the header alone as C++17, $cxx" "no $cxx"
+        skip "the headers alone as C++17, $cxx" "no $cxx"
     fi
 done
 has gcc || exit 1
@@ -164,6 +172,7 @@ on_thumb() {
         size "a supervisor" cotama_watchdog_{start,offer,advance,wake_at,state,store} &&
         size "  and its return" cotama_watchdog_{start,offer,advance,wake_at,state,store,restore} &&
         size "the decisional level" cotama_level_{start,perceive,round,requests} &&
+        size "  and its return" cotama_level_{start,perceive,round,requests,store,restore} &&
         size "  and names" cotama_level_{start,perceive,round,requests,transition_names} &&
         size "margins" cotama_monitor_{start,planned,spend,left,assess} &&
         size "planning by the rule" cotama_plan_by_rule &&

@@ -2,6 +2,7 @@
  * the same steps in Rust, which calls no C, is examples/same_steps.rs: both print the same text. */
 
 #include "cotama.h"
+#include "cotama_robot.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -122,109 +123,149 @@ static void ticks_steps(void) {
 
 /* The decisional level. */
 
-struct plans {
-  uint32_t asked;
-};
+static uint64_t flag(uint32_t it) { return UINT64_C(1) << it; }
 
-static uint8_t is_over(void *context) {
-  (void)context;
-  return 0;
+/* Prints a name, which a function tells by a number. */
+static void print_name(cotama_error (*tell)(uint32_t number, cotama_text *name), uint32_t number) {
+  cotama_text name;
+  must(tell(number, &name));
+  printf(" %.*s", (int)name.length, name.bytes);
 }
 
-static uint32_t plan(void *context, uint32_t why, uint32_t detail, uint32_t available) {
-  struct plans *plans = context;
-  plans->asked++;
-  printf("  a plan is asked for: why %" PRIu32 ", %#" PRIx32 " of %#" PRIx32 "\n", why, detail,
-         available);
-  return COTAMA_REPLANNED_PLANNED;
-}
-
-static uint32_t configuration(void *context) {
-  const struct plans *plans = context;
-  return plans->asked == 0 ? (uint32_t)COTAMA_CONFIGURATION_FOLLOWING_OPTIMAL
-                           : (uint32_t)COTAMA_CONFIGURATION_FOLLOWING_DEGRADED;
-}
-
-static uint32_t short_axis(void *context) {
-  (void)context;
-  return COTAMA_NONE;
-}
-
-static uint64_t flag(cotama_flag it) { return UINT64_C(1) << it; }
-
-static void print_finding(const cotama_finding *finding) {
-  if (finding->number == 0) {
+static void print_told(const cotama_told *told) {
+  static const char *const WORDS[] = {"nothing", "begins", "over",    "stopped", "reached",
+                                      "report",  "back",   "chooses", "done",    "gives up"};
+  if (told->word == COTAMA_WORD_NOTHING) {
     return;
   }
-  printf("  finding %" PRIu32 "%s:", finding->number, finding->recorded ? ", recorded" : "");
-  for (uint32_t mode = 0; mode < 64; mode++) {
-    if (finding->modes >> mode & 1) {
-      cotama_text name;
-      must(cotama_failure_mode_name(mode, &name));
-      printf(" %.*s", (int)name.length, name.bytes);
+  printf("  told %s", WORDS[told->word]);
+  switch (told->word) {
+    case COTAMA_WORD_OVER: printf(" %" PRIu32, told->number); break;
+    case COTAMA_WORD_REACHED:
+    case COTAMA_WORD_CHOOSES:
+    case COTAMA_WORD_DONE: print_name(cotama_sub_objective_name, told->number); break;
+    case COTAMA_WORD_REPORT: print_name(cotama_report_name, told->number); break;
+    case COTAMA_WORD_BACK: print_name(cotama_loss_name, told->number); break;
+    default: break;
+  }
+  printf("\n");
+}
+
+/* A set in print: the names of its members. */
+static void print_set(const char *of, uint64_t set,
+                      cotama_error (*tell)(uint32_t number, cotama_text *name)) {
+  if (set == 0) {
+    return;
+  }
+  printf("  %s", of);
+  for (uint32_t number = 0; number < 64; number++) {
+    if (set >> number & 1) {
+      print_name(tell, number);
     }
   }
   printf("\n");
 }
 
-static void level_steps(void) {
-  static uint64_t memory[COTAMA_LEVEL_BYTES / 8];
+/* A period of the level. */
+static void period(cotama_level *level, uint64_t now, const cotama_perceived *seen,
+                   const cotama_told *said, const cotama_drive *drive) {
   cotama_firing list[ROOM];
   cotama_firings firings = {list, ROOM, 0};
-  struct plans context = {0};
-  const cotama_plans plans = {&context, is_over, plan, configuration, short_axis};
+  uint32_t found[4];
+  cotama_failures failures = {found, sizeof found / sizeof *found, 0};
+  printf("%" PRIu64 " ms\n", now);
+  must(cotama_level_perceive(level, now, seen, &failures));
+  if (failures.count > 0) {
+    printf("  found %zu:", failures.count);
+    for (size_t at = 0; at < failures.count && at < failures.room; at++) {
+      print_name(cotama_failure_name, found[at]);
+    }
+    printf("\n");
+  }
+  bool listens;
+  must(cotama_level_listens(level, &listens));
+  if (!listens) {
+    printf("  reports go first\n");
+  }
+  cotama_round round;
+  must(cotama_level_round(level, now, said, drive, &round, &firings));
+  print_told(&round.told);
+  for (size_t at = 0; at < firings.count && at < firings.room; at++) {
+    const cotama_firing it = list[at];
+    cotama_text net, name;
+    must(cotama_level_transition_names(it.net, it.transition, &net, &name));
+    printf("  %.*s.%.*s says %#" PRIx64 "\n", (int)net.length, net.bytes, (int)name.length,
+           name.bytes, it.outputs);
+  }
+  print_set("starts anew:", round.restarts, cotama_module_name);
+  cotama_requests requests;
+  must(cotama_level_requests(level, now, &requests));
+  printf("  runs");
+  if (requests.configuration == COTAMA_NONE) {
+    printf(" nothing");
+  } else {
+    print_name(cotama_configuration_name, requests.configuration);
+  }
+  printf(",%s%s%s%s %" PRIu64 " mm/s\n", requests.drive ? " drive" : "",
+         requests.halt ? " halt" : "", requests.ask ? " ask" : "", requests.alarm ? " alarm" : "",
+         requests.speed_mm_s);
+  print_set("settings:", requests.settings, cotama_report_name);
+}
+
+static void level_steps(void) {
+  static uint64_t memory[COTAMA_LEVEL_BYTES / 8];
+  static const cotama_told BEGINS = {COTAMA_WORD_BEGINS, 0},
+                           RECEIVED = {COTAMA_WORD_OVER, COTAMA_STEP_RECEIVE},
+                           DELIVERED = {COTAMA_WORD_OVER, COTAMA_STEP_DELIVER},
+                           PLANNED = {COTAMA_WORD_REACHED, COTAMA_SUB_OBJECTIVE_PLANNING},
+                           HELPS = {COTAMA_WORD_CHOOSES, COTAMA_SUB_OBJECTIVE_TELEOPERATION},
+                           HELPED = {COTAMA_WORD_DONE, COTAMA_SUB_OBJECTIVE_TELEOPERATION};
   cotama_level *level;
-  must(cotama_level_start(memory, sizeof memory, COTAMA_CONFIGURATION_FOLLOWING_OPTIMAL, &level));
+  must(cotama_level_start(memory, sizeof memory, COTAMA_ROBOT, &level));
   for (uint64_t now = 0; now <= 4000; now += 100) {
-    cotama_perceived seen = {0, 0, 0, COTAMA_MODULES_ALL};
-    cotama_body body = {now == 1000 || now == 3600, now <= 200 || now >= 1000};
-    uint32_t word = COTAMA_WORD_NOTHING;
+    cotama_perceived seen = {0, 0, COTAMA_MODULES_ALL};
+    const cotama_drive drive = {now == 1000 || now == 3600, now <= 200 || now >= 1000};
+    const cotama_told *said = NULL;
     switch (now) {
-      case 0: word = COTAMA_WORD_MISSION_RECEIVED; break;
-      case 200: word = COTAMA_WORD_PATH_READY; break;
-      case 1300: word = COTAMA_WORD_OBJECT_RECEIVED; break;
-      case 1500: word = COTAMA_WORD_PATH_READY; break;
+      case 0: said = &BEGINS; break;
+      case 200: said = &PLANNED; break;
+      case 700: seen.raised = flag(COTAMA_FLAG_MCL_LATE); break;
+      case 1300: said = &RECEIVED; break;
+      case 1500: said = &PLANNED; break;
       case 1800: seen.raised = flag(COTAMA_FLAG_SONAR_FAR); break;
       case 2500: seen.raised = flag(COTAMA_FLAG_BUMPER); break;
       case 2600: seen.lowered = flag(COTAMA_FLAG_BUMPER); break;
-      case 2900: word = COTAMA_WORD_TELEOPERATE; break;
-      case 3300: word = COTAMA_WORD_ARRIVED; break;
-      case 3800: word = COTAMA_WORD_OBJECT_DELIVERED; break;
+      case 2900: said = &HELPS; break;
+      case 3300: said = &HELPED; break;
+      case 3800: said = &DELIVERED; break;
       default: break;
     }
-    printf("%" PRIu64 " ms\n", now);
-    cotama_finding finding;
-    must(cotama_level_perceive(level, now, &seen, &plans, &finding));
-    print_finding(&finding);
-    bool listens;
-    must(cotama_level_listens(level, &listens));
-    cotama_round round;
-    must(cotama_level_round(level, now, word, &body, &round, &firings));
-    print_finding(&round.finding);
-    if (round.net != COTAMA_NONE) {
-      cotama_text net, event;
-      must(cotama_level_event_names(round.net, round.event, &net, &event));
-      printf("  told %.*s.%.*s%s\n", (int)net.length, net.bytes, (int)event.length, event.bytes,
-             listens ? "" : ", a report");
-    }
-    for (size_t at = 0; at < firings.count && at < firings.room; at++) {
-      const cotama_firing it = list[at];
-      cotama_text net, name;
-      must(cotama_level_transition_names(it.net, it.transition, &net, &name));
-      printf("  %.*s.%.*s says %#" PRIx64 "\n", (int)net.length, net.bytes, (int)name.length,
-             name.bytes, it.outputs);
-    }
-    cotama_requests requests;
-    must(cotama_level_requests(level, &requests));
-    cotama_text runs = {"nothing", 7};
-    if (requests.configuration != COTAMA_NONE) {
-      must(cotama_configuration_name(requests.configuration, &runs));
-    }
-    printf("  runs %.*s,%s%s%s%s %" PRIu64 " mm/s, %u and %u per mille\n", (int)runs.length,
-           runs.bytes, requests.drive ? " drive" : "", requests.halt ? " halt" : "",
-           requests.ask ? " ask" : "", requests.alarm ? " alarm" : "", requests.speed_mm_s,
-           (unsigned)requests.speed_permille, (unsigned)requests.quality_permille);
+    period(level, now, &seen, said, &drive);
   }
+
+  /* The power goes before another mission begins, and is back after two seconds; then no
+   * plan is left. */
+  must(cotama_level_start(memory, sizeof memory, COTAMA_ROBOT, &level));
+  const cotama_drive drives = {0, 0};
+  cotama_perceived seen = {flag(COTAMA_FLAG_MODULE_SILENT), 0, COTAMA_MODULES_ALL};
+  period(level, 10000, &seen, &BEGINS, &drives);
+  uint8_t flash[COTAMA_LEVEL_STORED_BYTES];
+  size_t written;
+  must(cotama_level_store(level, flash, sizeof flash, &written));
+  printf("stored %zu bytes:", written);
+  for (size_t at = 0; at < written; at++) {
+    printf(" %02x", flash[at]);
+  }
+  printf("\n");
+  must(cotama_level_restore(memory, sizeof memory, COTAMA_ROBOT, 12000, flash, sizeof flash,
+                            &level));
+  for (uint64_t now = 12000; now <= 12500; now += 100) {
+    seen.raised = now == 12100 ? flag(COTAMA_FLAG_MODULE_SILENT) : 0;
+    period(level, now, &seen, &BEGINS, &drives);
+  }
+  must(cotama_level_report(level, COTAMA_FAILURE_PLN1));
+  period(level, 12600, &seen, NULL, &drives);
+  period(level, 12700, &seen, NULL, &drives);
 }
 
 /* Allocation. */

@@ -4,6 +4,7 @@
  * Exit status 0 when all was answered as it should be. */
 
 #include "cotama.h"
+#include "cotama_robot.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -42,7 +43,7 @@ static void watchdog(void *at, places all) {
 static void level(void *at, places all) {
   (void)all;
   cotama_level *handle;
-  cotama_level_start(at, COTAMA_LEVEL_BYTES, COTAMA_NONE, &handle);
+  cotama_level_start(at, COTAMA_LEVEL_BYTES, COTAMA_ROBOT, &handle);
 }
 static void monitor(void *at, places all) {
   (void)all;
@@ -56,7 +57,12 @@ static void stored(void *at, places all) {
   watchdog(memory, all);
   cotama_watchdog_store((cotama_watchdog *)memory, at, COTAMA_WATCHDOG_STORED_BYTES, NULL);
 }
-/* The firings of a call are its last piece but one, their list is its last. */
+static void stored_level(void *at, places all) {
+  uint64_t memory[COTAMA_LEVEL_BYTES / 8];
+  level(memory, all);
+  cotama_level_store((cotama_level *)memory, at, COTAMA_LEVEL_STORED_BYTES, NULL);
+}
+/* The firings of a call are its last piece but one, their list is its last; so of failures. */
 enum { FIRINGS = MOST - 2, LIST = MOST - 1, ROOM = 3 };
 static void firings(void *at, places all) {
   const cotama_firings it = {all[LIST], ROOM, 0};
@@ -66,21 +72,29 @@ static void firings(void *at, places all) {
   [FIRINGS] = {sizeof(cotama_firings), _Alignof(cotama_firings), true,                     \
                offsetof(cotama_firings, count), firings},                                  \
   [LIST] = ANSWERS(cotama_firing, ROOM)
+#define FOUND                                                                              \
+  [FIRINGS] = {sizeof(cotama_failures), _Alignof(cotama_failures), true,                   \
+               offsetof(cotama_failures, count), failures},                                \
+  [LIST] = ANSWERS(uint32_t, ROOM)
+static void failures(void *at, places all) {
+  const cotama_failures it = {all[LIST], ROOM, 0};
+  memcpy(at, &it, offsetof(cotama_failures, count));
+}
 static void ticks(void *at, places all) {
   (void)all;
   memcpy(at, &(cotama_ticks){7}, sizeof(cotama_ticks));
 }
 static void seen(void *at, places all) {
   (void)all;
-  memcpy(at, &(cotama_perceived){0, 0, 0, COTAMA_MODULES_ALL}, sizeof(cotama_perceived));
+  memcpy(at, &(cotama_perceived){0, 0, COTAMA_MODULES_ALL}, sizeof(cotama_perceived));
 }
-static void plans(void *at, places all) {
+static void drive(void *at, places all) {
   (void)all;
-  memset(at, 0, sizeof(cotama_plans));
+  memset(at, 1, sizeof(cotama_drive));
 }
-static void body(void *at, places all) {
+static void said(void *at, places all) {
   (void)all;
-  memset(at, 1, sizeof(cotama_body));
+  memcpy(at, &(cotama_told){COTAMA_WORD_BEGINS, 0}, sizeof(cotama_told));
 }
 typedef uint64_t axes[COTAMA_AXES];
 static void amounts(void *at, places all) {
@@ -123,11 +137,13 @@ static void objectives(void *at, places all) {
 
 CALLS(flag_name, 0, at[0])
 CALLS(module_name, 0, at[0])
+CALLS(sub_objective_name, 0, at[0])
 CALLS(configuration_name, 0, at[0])
-CALLS(failure_mode_name, 0, at[0])
+CALLS(failure_name, 0, at[0])
+CALLS(report_name, 0, at[0])
+CALLS(loss_name, 0, at[0])
 CALLS(watchdog_transition_name, 0, at[0])
 CALLS(level_transition_names, 0, 0, at[0], at[1])
-CALLS(level_event_names, 0, 0, at[0], at[1])
 CALLS(ticks_widen, at[0], 9, at[1])
 enum { LONGER = 16 }; /* all of the memory is the handle's, and not only what it needs */
 CALLS(watchdog_start, at[0], COTAMA_WATCHDOG_BYTES + LONGER, 5, at[1])
@@ -140,11 +156,15 @@ CALLS(watchdog_tokens, at[0], COTAMA_WATCHDOG_PLACE_MISSES, at[1])
 CALLS(watchdog_store, at[0], at[1], COTAMA_WATCHDOG_STORED_BYTES, at[2])
 CALLS(watchdog_restore, at[0], COTAMA_WATCHDOG_BYTES + LONGER, 5, at[1],
       COTAMA_WATCHDOG_STORED_BYTES, at[2])
-CALLS(level_start, at[0], COTAMA_LEVEL_BYTES + LONGER, COTAMA_NONE, at[1])
-CALLS(level_perceive, at[0], 100, at[1], at[2], at[3])
+CALLS(level_start, at[0], COTAMA_LEVEL_BYTES + LONGER, COTAMA_ROBOT, at[1])
+CALLS(level_perceive, at[0], 100, at[1], at[FIRINGS])
+CALLS(level_report, at[0], COTAMA_FAILURE_PLN1)
 CALLS(level_listens, at[0], at[1])
-CALLS(level_round, at[0], 100, COTAMA_WORD_NOTHING, at[1], at[2], at[FIRINGS])
-CALLS(level_requests, at[0], at[1])
+CALLS(level_round, at[0], 100, at[1], at[2], at[3], at[FIRINGS])
+CALLS(level_requests, at[0], 100, at[1])
+CALLS(level_store, at[0], at[1], COTAMA_LEVEL_STORED_BYTES, at[2])
+CALLS(level_restore, at[0], COTAMA_LEVEL_BYTES + LONGER, COTAMA_ROBOT, 5, at[1],
+      COTAMA_LEVEL_STORED_BYTES, at[2])
 CALLS(plan_by_rule, at[0], at[3], COTAMA_RULE_BYTES(2, 3), at[4], 2, at[5])
 CALLS(plan_exactly, at[0], at[6], 2, 1000, at[3], COTAMA_EXACT_BYTES(2, 3), at[4], 2, at[5])
 CALLS(monitor_start, at[0], COTAMA_MONITOR_BYTES + LONGER, at[1], at[2], at[3])
@@ -162,11 +182,13 @@ CALLS(monitor_assess, at[0], at[1], 0, 0, at[2], at[3])
 static const call CALLED[] = {
     ROW(flag_name, ANSWER(cotama_text)),
     ROW(module_name, ANSWER(cotama_text)),
+    ROW(sub_objective_name, ANSWER(cotama_text)),
     ROW(configuration_name, ANSWER(cotama_text)),
-    ROW(failure_mode_name, ANSWER(cotama_text)),
+    ROW(failure_name, ANSWER(cotama_text)),
+    ROW(report_name, ANSWER(cotama_text)),
+    ROW(loss_name, ANSWER(cotama_text)),
     ROW(watchdog_transition_name, ANSWER(cotama_text)),
     ROW(level_transition_names, ANSWER(cotama_text), ANSWER(cotama_text)),
-    ROW(level_event_names, ANSWER(cotama_text), ANSWER(cotama_text)),
     ROW(ticks_widen,
         {sizeof(cotama_ticks), _Alignof(cotama_ticks), true, sizeof(cotama_ticks), ticks},
         ANSWER(uint64_t)),
@@ -182,11 +204,16 @@ static const call CALLED[] = {
         {COTAMA_WATCHDOG_STORED_BYTES, 1, false, COTAMA_WATCHDOG_STORED_BYTES, stored},
         ANSWER(cotama_watchdog *)),
     ROW(level_start, MEMORY(COTAMA_LEVEL_BYTES + LONGER), ANSWER(cotama_level *)),
-    ROW(level_perceive, LEVEL, GIVEN(cotama_perceived, seen), GIVEN(cotama_plans, plans),
-        ANSWER(cotama_finding)),
+    ROW(level_perceive, LEVEL, GIVEN(cotama_perceived, seen), FOUND),
+    ROW(level_report, LEVEL),
     ROW(level_listens, LEVEL, ANSWER(bool)),
-    ROW(level_round, LEVEL, GIVEN(cotama_body, body), ANSWER(cotama_round), NOTED),
+    ROW(level_round, LEVEL, GIVEN(cotama_told, said), GIVEN(cotama_drive, drive),
+        ANSWER(cotama_round), NOTED),
     ROW(level_requests, LEVEL, ANSWER(cotama_requests)),
+    ROW(level_store, LEVEL, ANSWERS(uint8_t, COTAMA_LEVEL_STORED_BYTES), ANSWER(size_t)),
+    ROW(level_restore, MEMORY(COTAMA_LEVEL_BYTES + LONGER),
+        {COTAMA_LEVEL_STORED_BYTES, 1, false, COTAMA_LEVEL_STORED_BYTES, stored_level},
+        ANSWER(cotama_level *)),
     ROW(plan_by_rule, PROBLEM(COTAMA_RULE_BYTES(2, 3))),
     ROW(plan_exactly, PROBLEM(COTAMA_EXACT_BYTES(2, 3)), GIVEN(two, objectives)),
     ROW(monitor_start, MEMORY(COTAMA_MONITOR_BYTES + LONGER), GIVEN(axes, amounts),

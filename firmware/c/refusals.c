@@ -1,9 +1,10 @@
 /* What the library refuses, function by function: null pointers, memory that is short, misaligned,
- * overlapping (all of it in overlaps.c) or of another handle, and numbers that stand for nothing. Whoever is refused finds
- * everything as it was. With an argument, bytes between numbers are not compared. Exit status 0
- * when all was refused as it should be. */
+ * overlapping (all of it in overlaps.c) or of another handle, and numbers that stand for nothing.
+ * Whoever is refused finds everything as it was. With an argument, bytes between numbers are not
+ * compared. Exit status 0 when all was refused as it should be. */
 
 #include "cotama.h"
+#include "cotama_robot.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -45,13 +46,17 @@ static void texts(void) {
   ANSWERS(OK, cotama_module_name(COTAMA_MODULE_MCL, &text));
   HOLDS(text.length == 3 && memcmp(text.bytes, "MCL", 3) == 0);
   ANSWERS(BAD_NUMBER, cotama_module_name(COTAMA_NONE, &text));
+  ANSWERS(OK, cotama_sub_objective_name(COTAMA_SUB_OBJECTIVE_FOLLOWING, &text));
+  HOLDS(text.length == 9 && memcmp(text.bytes, "Following", 9) == 0);
+  ANSWERS(BAD_NUMBER, cotama_sub_objective_name(COTAMA_NONE, &text));
   ANSWERS(BAD_NUMBER, cotama_configuration_name(COTAMA_NONE, &text));
-  ANSWERS(BAD_NUMBER, cotama_failure_mode_name(64, &text));
+  ANSWERS(OK, cotama_failure_name(COTAMA_FAILURE_PLN1, &text));
+  ANSWERS(BAD_NUMBER, cotama_failure_name(COTAMA_FAILURE_PLN1 + 1, &text));
+  ANSWERS(BAD_NUMBER, cotama_report_name(COTAMA_REPORT_COM1 + 1, &text));
+  ANSWERS(BAD_NUMBER, cotama_loss_name(COTAMA_LOSS_WIFI_CARD + 1, &text));
   ANSWERS(BAD_NUMBER, cotama_level_transition_names(99, 0, &text, &other));
   ANSWERS(BAD_NUMBER, cotama_level_transition_names(0, 99, &text, &other));
   ANSWERS(NULL_POINTER, cotama_level_transition_names(0, 0, NULL, &text));
-  ANSWERS(BAD_NUMBER, cotama_level_event_names(0, COTAMA_NONE, &text, &other));
-  ANSWERS(NULL_POINTER, cotama_level_event_names(0, 0, &text, NULL));
   ANSWERS(BAD_NUMBER, cotama_watchdog_transition_name(99, &text));
   ANSWERS(NULL_POINTER, cotama_watchdog_transition_name(0, NULL));
 }
@@ -159,70 +164,138 @@ static void watchdog(void) {
   ANSWERS(OK, cotama_watchdog_restore(memory, sizeof memory, 0, stored, written, &handle));
 }
 
-/* A plan that uses the level which asks for it, and starts it anew. */
-static uint8_t uses_the_level(void *context) {
-  const cotama_body body = {0, 1};
-  const cotama_perceived seen = {0, 0, 0, COTAMA_MODULES_ALL};
-  cotama_requests requests;
-  bool listens;
-  cotama_level *anew = NULL;
-  ANSWERS(BUSY, cotama_level_requests(context, &requests));
-  ANSWERS(BUSY, cotama_level_listens(context, &listens));
-  ANSWERS(BUSY, cotama_level_perceive(context, 0, &seen, NULL, NULL));
-  ANSWERS(BUSY, cotama_level_round(context, 0, 0, &body, NULL, NULL));
-  ANSWERS(BUSY, cotama_level_start(context, COTAMA_LEVEL_BYTES, COTAMA_NONE, &anew));
-  HOLDS(anew == NULL);
-  uint64_t at;
-  ANSWERS(NOT_STARTED, cotama_watchdog_wake_at(context, &at));
-  return 1;
-}
-
 /* Valgrind knows that bytes between two numbers of a handle stand for nothing. */
 static bool compares_padding = true;
+
+/* Stored bytes of a level: every damaged byte is refused, and what cannot be. */
+static void stored_level(void) {
+  static uint64_t memory[COTAMA_LEVEL_BYTES / 8];
+  unsigned char *const bytes = (unsigned char *)memory;
+  cotama_level *handle;
+  ANSWERS(OK, cotama_level_start(memory, sizeof memory, COTAMA_ROBOT, &handle));
+  uint8_t stored[COTAMA_LEVEL_STORED_BYTES];
+  size_t written = 0;
+  ANSWERS(TOO_SMALL, cotama_level_store(handle, stored, sizeof stored - 1, NULL));
+  ANSWERS(NULL_POINTER, cotama_level_store(handle, NULL, sizeof stored, NULL));
+  ANSWERS(OVERLAP, cotama_level_store(handle, bytes + 8, sizeof stored, NULL));
+  ANSWERS(OK, cotama_level_store(handle, stored, sizeof stored, &written));
+  HOLDS(written == sizeof stored);
+  uint64_t before[COTAMA_LEVEL_BYTES / 8];
+  memcpy(before, memory, sizeof memory);
+#define RESTORE(STORED, LENGTH) \
+  cotama_level_restore(memory, sizeof memory, COTAMA_ROBOT, 0, STORED, LENGTH, &handle)
+  for (size_t byte = 0; byte < sizeof stored; byte++) {
+    for (int bit = 0; bit < 8; bit++) {
+      stored[byte] ^= (uint8_t)(1 << bit);
+      ANSWERS(DAMAGED, RESTORE(stored, written));
+      stored[byte] ^= (uint8_t)(1 << bit);
+    }
+  }
+  ANSWERS(DAMAGED, RESTORE(stored, written - 1));
+  ANSWERS(NULL_POINTER, RESTORE(NULL, written));
+  ANSWERS(OVERLAP, RESTORE(bytes, written));
+  ANSWERS(TOO_SMALL,
+          cotama_level_restore(memory, 500, COTAMA_ROBOT, 0, stored, written, &handle));
+  ANSWERS(OTHER_ROBOT,
+          cotama_level_restore(memory, sizeof memory, 7, 0, stored, written, &handle));
+  /* The first eight bytes tell the system, the marking follows them. */
+  uint8_t forged[COTAMA_LEVEL_STORED_BYTES];
+  memcpy(forged, stored, sizeof forged);
+  forged[0] ^= 1;
+  seal(forged, sizeof forged);
+  ANSWERS(OTHER_NET, RESTORE(forged, written));
+  memcpy(forged, stored, sizeof forged);
+  memset(forged + 8, 0, 8);
+  seal(forged, sizeof forged);
+  ANSWERS(IMPOSSIBLE, RESTORE(forged, written));
+  if (compares_padding) {
+    HOLDS(memcmp(before, memory, sizeof memory) == 0);
+  }
+  ANSWERS(OK, RESTORE(stored, written));
+}
 
 static void level(void) {
   static uint64_t memory[COTAMA_LEVEL_BYTES / 8];
   unsigned char *const bytes = (unsigned char *)memory;
   cotama_level *handle = NULL;
-  ANSWERS(NULL_POINTER, cotama_level_start(NULL, sizeof memory, COTAMA_NONE, &handle));
-  ANSWERS(MISALIGNED, cotama_level_start(bytes + 4, sizeof memory, COTAMA_NONE, &handle));
-  ANSWERS(TOO_SMALL, cotama_level_start(memory, 500, COTAMA_NONE, &handle));
-  ANSWERS(BAD_NUMBER, cotama_level_start(memory, sizeof memory, 10, &handle));
-  ANSWERS(OK, cotama_level_start(memory, sizeof memory, COTAMA_NONE, &handle));
+  ANSWERS(NULL_POINTER, cotama_level_start(NULL, sizeof memory, COTAMA_ROBOT, &handle));
+  ANSWERS(MISALIGNED, cotama_level_start(bytes + 4, sizeof memory, COTAMA_ROBOT, &handle));
+  ANSWERS(TOO_SMALL, cotama_level_start(memory, 500, COTAMA_ROBOT, &handle));
+  ANSWERS(OTHER_ROBOT, cotama_level_start(memory, sizeof memory, COTAMA_ROBOT + 1, &handle));
+  HOLDS(handle == NULL);
+  ANSWERS(OK, cotama_level_start(memory, sizeof memory, COTAMA_ROBOT, &handle));
 
   uint64_t before[COTAMA_LEVEL_BYTES / 8];
   memcpy(before, memory, sizeof memory);
-  const cotama_body body = {0, 1};
-  cotama_perceived seen = {0, 0, 0, COTAMA_MODULES_ALL};
-  cotama_finding finding;
-  ANSWERS(NULL_POINTER, cotama_level_perceive(NULL, 0, &seen, NULL, NULL));
-  ANSWERS(NULL_POINTER, cotama_level_perceive(handle, 0, NULL, NULL, NULL));
-  seen.raised = UINT64_C(1) << (COTAMA_FLAG_ROBOT_SILENT + 1);
-  ANSWERS(BAD_NUMBER, cotama_level_perceive(handle, 0, &seen, NULL, &finding));
+  const cotama_drive drive = {0, 1};
+  cotama_perceived seen = {0, 0, COTAMA_MODULES_ALL};
+  uint32_t found[1];
+  cotama_failures failures = {found, 1, 0};
+  ANSWERS(NULL_POINTER, cotama_level_perceive(NULL, 0, &seen, NULL));
+  ANSWERS(NULL_POINTER, cotama_level_perceive(handle, 0, NULL, NULL));
+  seen.raised = COTAMA_FLAGS_ALL + 1;
+  ANSWERS(BAD_NUMBER, cotama_level_perceive(handle, 0, &seen, &failures));
   seen.raised = 0;
-  seen.works = UINT32_MAX;
-  ANSWERS(BAD_NUMBER, cotama_level_perceive(handle, 0, &seen, NULL, &finding));
+  seen.lowered = UINT64_MAX;
+  ANSWERS(BAD_NUMBER, cotama_level_perceive(handle, 0, &seen, &failures));
+  seen.lowered = 0;
+  seen.works = COTAMA_MODULES_ALL + 1;
+  ANSWERS(BAD_NUMBER, cotama_level_perceive(handle, 0, &seen, &failures));
   seen.works = COTAMA_MODULES_ALL;
-  ANSWERS(OVERLAP, cotama_level_perceive(handle, 0, &seen, NULL, (cotama_finding *)memory));
-  ANSWERS(NULL_POINTER, cotama_level_round(handle, 0, 0, NULL, NULL, NULL));
-  ANSWERS(BAD_NUMBER, cotama_level_round(handle, 0, 11, &body, NULL, NULL));
-  ANSWERS(OVERLAP, cotama_level_round(handle, 0, 0, &body, (cotama_round *)memory, NULL));
-  ANSWERS(NULL_POINTER, cotama_level_requests(handle, NULL));
+  ANSWERS(OVERLAP, cotama_level_perceive(handle, 0, &seen, (cotama_failures *)memory));
+  failures.list = (uint32_t *)memory;
+  ANSWERS(OVERLAP, cotama_level_perceive(handle, 0, &seen, &failures));
+  failures.list = NULL;
+  ANSWERS(NULL_POINTER, cotama_level_perceive(handle, 0, &seen, &failures));
+  ANSWERS(BAD_NUMBER, cotama_level_report(handle, COTAMA_FAILURE_PLN1 + 1));
+  ANSWERS(NULL_POINTER, cotama_level_report(NULL, COTAMA_FAILURE_PLN1));
+  ANSWERS(NULL_POINTER, cotama_level_round(handle, 0, NULL, NULL, NULL, NULL));
+  static const cotama_told NONSENSE[] = {
+      {COTAMA_WORD_NOTHING, 1},
+      {COTAMA_WORD_BEGINS, 1},
+      {COTAMA_WORD_OVER, COTAMA_STEP_DRIVEA}, /* a drive ends when its goal is reached */
+      {COTAMA_WORD_OVER, COTAMA_STEP_DELIVER + 1},
+      {COTAMA_WORD_STOPPED, 1},
+      {COTAMA_WORD_REACHED, COTAMA_SUB_OBJECTIVE_TELEOPERATION + 1},
+      {COTAMA_WORD_REPORT, COTAMA_REPORT_COM1 + 1},
+      {COTAMA_WORD_BACK, COTAMA_LOSS_WIFI_CARD + 1},
+      {COTAMA_WORD_CHOOSES, COTAMA_SUB_OBJECTIVE_FOLLOWING}, /* not the operator's */
+      {COTAMA_WORD_DONE, COTAMA_NONE},
+      {COTAMA_WORD_GIVES_UP, 1},
+      {COTAMA_WORD_GIVES_UP + 1, 0},
+      {COTAMA_NONE, 0},
+  };
+  for (size_t at = 0; at < sizeof NONSENSE / sizeof *NONSENSE; at++) {
+    ANSWERS(BAD_NUMBER, cotama_level_round(handle, 0, &NONSENSE[at], &drive, NULL, NULL));
+  }
+  ANSWERS(OVERLAP, cotama_level_round(handle, 0, NULL, &drive, (cotama_round *)memory, NULL));
+  ANSWERS(NULL_POINTER, cotama_level_requests(handle, 0, NULL));
   ANSWERS(NULL_POINTER, cotama_level_listens(handle, NULL));
-  ANSWERS(NOT_STARTED, cotama_level_requests((cotama_level *)zero, NULL));
+  ANSWERS(NOT_STARTED, cotama_level_requests((cotama_level *)zero, 0, NULL));
   uint64_t at;
   ANSWERS(NOT_STARTED, cotama_watchdog_wake_at((cotama_watchdog *)memory, &at));
   if (compares_padding) {
     HOLDS(memcmp(before, memory, sizeof memory) == 0);
   }
 
-  const cotama_plans plans = {handle, uses_the_level, NULL, NULL, NULL};
-  const int asked_before = asked;
-  seen.raised = UINT64_C(1) << COTAMA_FLAG_SONAR_FAR;
-  ANSWERS(OK, cotama_level_perceive(handle, 100, &seen, &plans, &finding));
-  HOLDS(asked > asked_before + 1 && finding.number == 1);
-  ANSWERS(OK, cotama_level_round(handle, 100, 0, &body, NULL, NULL));
-  ANSWERS(OK, cotama_level_start(memory, sizeof memory, COTAMA_NONE, &handle));
+  /* What an interrupt finds, while a call uses the level: the complement of its mark. */
+  cotama_requests requests;
+  memory[0] = ~memory[0];
+  ANSWERS(BUSY, cotama_level_perceive(handle, 0, &seen, NULL));
+  ANSWERS(BUSY, cotama_level_round(handle, 0, NULL, &drive, NULL, NULL));
+  ANSWERS(BUSY, cotama_level_requests(handle, 0, &requests));
+  memory[0] = ~memory[0];
+
+  /* More is found than there is room for: all of it is counted, and the worst is noted. */
+  failures.list = found;
+  seen.raised = UINT64_C(1) << COTAMA_FLAG_BUMPER;
+  ANSWERS(OK, cotama_level_perceive(handle, 100, &seen, &failures));
+  HOLDS(failures.count == 2 && found[0] == COTAMA_FAILURE_LOC3);
+  seen.raised = 0;
+  ANSWERS(OK, cotama_level_perceive(handle, 200, &seen, &failures));
+  HOLDS(failures.count == 0);
+  ANSWERS(OK, cotama_level_round(handle, 200, NULL, &drive, NULL, NULL));
+  ANSWERS(OK, cotama_level_start(memory, sizeof memory, COTAMA_ROBOT, &handle));
 }
 
 /* Memory in which nothing was started, whatever its bytes are, is of no handle; and a level, a
@@ -231,8 +304,8 @@ static void never_started(void) {
   static uint64_t memory[COTAMA_LEVEL_BYTES / 8];
   static const unsigned char FILLS[] = {0x00, 0xFF, 0x55, 0xAA, 0xA5, 0xEF, 0x01};
   for (size_t at = 0; at < sizeof FILLS; at++) {
-    const cotama_body body = {0, 1};
-    const cotama_perceived seen = {0, 0, 0, COTAMA_MODULES_ALL};
+    const cotama_drive drive = {0, 1};
+    const cotama_perceived seen = {0, 0, COTAMA_MODULES_ALL};
     const uint64_t amounts[] = {1, 1};
     union {
       uint64_t number;
@@ -254,10 +327,12 @@ static void never_started(void) {
     ANSWERS(NOT_STARTED, cotama_watchdog_tokens(watchdog, 0, &to.place));
     ANSWERS(NOT_STARTED, cotama_watchdog_store(watchdog, to.stored, sizeof to.stored, NULL));
     cotama_level *level = (cotama_level *)memory;
-    ANSWERS(NOT_STARTED, cotama_level_perceive(level, 0, &seen, NULL, NULL));
+    ANSWERS(NOT_STARTED, cotama_level_perceive(level, 0, &seen, NULL));
+    ANSWERS(NOT_STARTED, cotama_level_report(level, 0));
     ANSWERS(NOT_STARTED, cotama_level_listens(level, &to.listens));
-    ANSWERS(NOT_STARTED, cotama_level_round(level, 0, 0, &body, NULL, NULL));
-    ANSWERS(NOT_STARTED, cotama_level_requests(level, &to.requests));
+    ANSWERS(NOT_STARTED, cotama_level_round(level, 0, NULL, &drive, NULL, NULL));
+    ANSWERS(NOT_STARTED, cotama_level_requests(level, 0, &to.requests));
+    ANSWERS(NOT_STARTED, cotama_level_store(level, to.stored, sizeof to.stored, NULL));
     cotama_monitor *monitor = (cotama_monitor *)memory;
     ANSWERS(NOT_STARTED, cotama_monitor_ask_upward(monitor, amounts, amounts));
     ANSWERS(NOT_STARTED, cotama_monitor_hardware_returned(monitor));
@@ -266,7 +341,7 @@ static void never_started(void) {
     ANSWERS(NOT_STARTED, cotama_monitor_left(monitor, to.amounts));
     ANSWERS(NOT_STARTED, cotama_monitor_margins(monitor, amounts, to.margins));
     ANSWERS(NOT_STARTED, cotama_monitor_assess(monitor, amounts, 0, 0, &to.request, NULL));
-    ANSWERS(OK, cotama_level_start(memory, sizeof memory, COTAMA_NONE, &level));
+    ANSWERS(OK, cotama_level_start(memory, sizeof memory, COTAMA_ROBOT, &level));
     ANSWERS(NOT_STARTED, cotama_monitor_hardware_returned(monitor));
     ANSWERS(NOT_STARTED, cotama_watchdog_wake_at(watchdog, &to.number));
     memset(memory, FILLS[at], sizeof memory);
@@ -393,6 +468,7 @@ int main(int count, char **arguments) {
   texts();
   watchdog();
   level();
+  stored_level();
   allocation();
   monitor();
   never_started();

@@ -2,6 +2,12 @@
 //!
 //! `cargo run --manifest-path firmware/c/Cargo.toml --example same_steps`
 
+use cotama_c::robot::names::{
+    CONFIGURATIONS, FAILURES, FLAGS, LOSSES, MODULES, REPORTS, SUB_OBJECTIVES,
+};
+use cotama_c::robot::{
+    Decider, LEVEL_STORED_BYTES, Program, Snapshot as StoredLevel, TABLES, at_rest, system,
+};
 use cotama_core::allocation::{Allocator, Answer};
 use cotama_core::exact::{Exact, Item, Objective, Stage};
 use cotama_core::hardware::Equipment;
@@ -12,10 +18,7 @@ use cotama_core::problem::{Candidate, Problem};
 use cotama_core::system::System;
 use cotama_core::ticks::Ticks32;
 use cotama_core::units::Millis;
-use cotama_models::cotama::{
-    Body, Cause, Configuration, DeliveryDecider, Diagnosis, FailureModes, Finding, Flag, Flags,
-    Modules, NoPlanLeft, Perceived, Plans, Why as Needed, Word, delivery, operator,
-};
+use cotama_models::level::{Cause, Drive, Level, Perceived, Told};
 use cotama_models::nets::watchdog;
 
 fn main() {
@@ -124,113 +127,131 @@ fn ticks_steps() {
     print_watchdog(&watchdog);
 }
 
-/// A mission whose plan does without sonars once it is asked.
-#[derive(Default)]
-struct Plan {
-    asked: u32,
-}
-
-impl Plans for Plan {
-    fn is_over(&self) -> bool {
-        false
-    }
-
-    fn plan(&mut self, why: Needed, available: Modules) -> Result<bool, NoPlanLeft> {
-        self.asked += 1;
-        let (why, detail) = match why {
-            Needed::Lost { modules, .. } => (0, modules.bits()),
-            Needed::Returned { modules, .. } => (1, modules.bits()),
-            Needed::Margin(axis) => (2, axis as u32),
-        };
-        println!("  a plan is asked for: why {why}, {detail:#x} of {:#x}", available.bits());
-        Ok(true)
-    }
-
-    fn configuration(&self) -> Option<Configuration> {
-        Some(match self.asked {
-            0 => Configuration::FollowingOptimal,
-            _ => Configuration::FollowingDegraded,
-        })
-    }
-
-    fn short(&self) -> Option<usize> {
-        None
-    }
-}
-
-fn print_finding(finding: Option<Finding>) {
-    let Some(finding) = finding else { return };
-    let recorded = if finding.recorded { ", recorded" } else { "" };
-    print!("  finding {}{recorded}:", finding.cause.0);
-    let modes = match finding.diagnosis {
-        Diagnosis::None | Diagnosis::Unexplained => FailureModes::NONE,
-        Diagnosis::Unique(mode) => FailureModes::of(&[mode]),
-        Diagnosis::Ambiguous(modes) => modes,
-    };
-    modes.iter().for_each(|it| print!(" {}", it.name()));
-    println!();
-}
-
 /// A number as C prints it with `%#x`.
 fn hexadecimal(number: u64) -> String {
     if number == 0 { "0".to_owned() } else { format!("{number:#x}") }
 }
 
+fn flag(name: &str) -> u64 {
+    1 << FLAGS.iter().position(|it| *it == name).expect("a flag")
+}
+
+fn sub_objective(name: &str) -> usize {
+    SUB_OBJECTIVES.iter().position(|it| *it == name).expect("a sub-objective")
+}
+
+fn told(told: Told) -> String {
+    match told {
+        Told::Begins => "begins".to_owned(),
+        Told::Over(it) => format!("over {it}"),
+        Told::Stopped => "stopped".to_owned(),
+        Told::Reached(it) => format!("reached {}", SUB_OBJECTIVES[it]),
+        Told::Report(it) => format!("report {}", REPORTS[it]),
+        Told::Back(it) => format!("back {}", LOSSES[it]),
+        Told::Chooses(it) => format!("chooses {}", SUB_OBJECTIVES[it]),
+        Told::Done(it) => format!("done {}", SUB_OBJECTIVES[it]),
+        Told::GivesUp => "gives up".to_owned(),
+    }
+}
+
+/// A set in print: the names of its members.
+fn print_set(of: &str, set: u64, names: &[&str]) {
+    if set != 0 {
+        let all = names.iter().enumerate().filter(|it| set >> it.0 & 1 == 1);
+        println!("  {of} {}", all.map(|it| *it.1).collect::<Vec<_>>().join(" "));
+    }
+}
+
+/// A period of the level.
+fn period(level: &mut Decider, now: u64, seen: Perceived, said: Option<Told>, drive: Drive) {
+    const SYSTEM: System<'static> = system::SYSTEM;
+    let now = Millis(now);
+    println!("{now}");
+    let found = level.perceive(now, seen);
+    if !found.is_empty() {
+        let all: Vec<_> = found.worst_first(TABLES.failures).take(4).collect();
+        let names: Vec<_> = all.iter().map(|it| FAILURES[*it]).collect();
+        println!("  found {}: {}", found.count(), names.join(" "));
+    }
+    if !level.listens() {
+        println!("  reports go first");
+    }
+    let mut fired = Vec::new();
+    let mut note = |it: &Firing<'_, Program, Cause>| fired.push(it.id);
+    let round = level.period(now, said, drive, &mut note);
+    if let Some(it) = round.told {
+        println!("  told {}", told(it));
+    }
+    for it in fired {
+        let net = &SYSTEM.components[usize::from(it.component)];
+        let transition = &net.net.transitions[it.id.0 as usize];
+        let says = transition.emits.iter().fold(0, |all, it| all | 1_u64 << it.0);
+        println!("  {}.{} says {}", net.name, transition.name, hexadecimal(says));
+    }
+    print_set("starts anew:", round.restarts, &MODULES);
+    let it = level.requests(now);
+    let says = |wanted, word| if wanted { word } else { "" };
+    println!(
+        "  runs {},{}{}{}{} {} mm/s",
+        it.configuration.map_or("nothing", |it| CONFIGURATIONS[it]),
+        says(it.drive, " drive"),
+        says(it.halt, " halt"),
+        says(it.ask, " ask"),
+        says(it.alarm, " alarm"),
+        it.speed.0,
+    );
+    print_set("settings:", it.settings, &REPORTS);
+}
+
 fn level_steps() {
-    const SYSTEM: System<'static> = delivery::SYSTEM;
-    let planned = Some(Configuration::FollowingOptimal);
-    let mut level = DeliveryDecider::start(delivery::Program, 4, planned);
-    let mut plan = Plan::default();
+    let sound = Perceived { raised: 0, lowered: 0, works: (1 << MODULES.len()) - 1 };
+    let raised = |name| Perceived { raised: flag(name), ..sound };
+    let mut level = at_rest();
     for now in (0..=4_000).step_by(100) {
-        let sound = Perceived::nothing(Modules::ALL);
         let seen = match now {
-            1_800 => Perceived { raised: Flags::of(&[Flag::SonarFar]), ..sound },
-            2_500 => Perceived { raised: Flags::of(&[Flag::Bumper]), ..sound },
-            2_600 => Perceived { lowered: Flags::of(&[Flag::Bumper]), ..sound },
+            700 => raised("MCL late"),
+            1_800 => raised("sonar far"),
+            2_500 => raised("bumper"),
+            2_600 => Perceived { lowered: flag("bumper"), ..sound },
             _ => sound,
         };
-        let word = match now {
-            0 => Some(Word::MissionReceived),
-            200 | 1_500 => Some(Word::PathReady),
-            1_300 => Some(Word::ObjectReceived),
-            2_900 => Some(Word::Operator(operator::Event::teleoperate)),
-            3_300 => Some(Word::Operator(operator::Event::arrived)),
-            3_800 => Some(Word::ObjectDelivered),
+        let said = match now {
+            0 => Some(Told::Begins),
+            200 | 1_500 => Some(Told::Reached(sub_objective("Planning"))),
+            1_300 => Some(Told::Over(1)),
+            2_900 => Some(Told::Chooses(sub_objective("Teleoperation"))),
+            3_300 => Some(Told::Done(sub_objective("Teleoperation"))),
+            3_800 => Some(Told::Over(3)),
             _ => None,
         };
         let at_goal = now == 1_000 || now == 3_600;
-        let body = Body { at_goal, stands: now <= 200 || now >= 1_000 };
-        println!("{}", Millis(now));
-        print_finding(level.perceive(Millis(now), seen, &mut plan));
-        let report = if level.listens() { "" } else { ", a report" };
-        let mut fired = Vec::new();
-        let mut note = |it: &delivery::Firing<'_, Cause>| fired.push(it.id);
-        let round = level.round(Millis(now), word, body, &mut note);
-        print_finding(round.finding);
-        if let Some(told) = round.told.map(|it| it.event()) {
-            let net = &SYSTEM.components[usize::from(told.component)];
-            println!("  told {}.{}{report}", net.name, net.net.events[told.id.0 as usize].name);
-        }
-        for it in fired {
-            let net = &SYSTEM.components[usize::from(it.component)];
-            let transition = &net.net.transitions[it.id.0 as usize];
-            let says = transition.emits.iter().fold(0, |all, it| all | 1_u64 << it.0);
-            println!("  {}.{} says {}", net.name, transition.name, hexadecimal(says));
-        }
-        let it = level.requests();
-        let says = |wanted, word| if wanted { word } else { "" };
-        println!(
-            "  runs {},{}{}{}{} {} mm/s, {} and {} per mille",
-            it.configuration.map_or("nothing", Configuration::name),
-            says(it.drive, " drive"),
-            says(it.halt, " halt"),
-            says(it.ask, " ask"),
-            says(it.alarm, " alarm"),
-            it.speed.0,
-            it.adjusted.speed,
-            it.adjusted.quality,
-        );
+        let drive = Drive { at_goal, stands: now <= 200 || now >= 1_000 };
+        period(&mut level, now, seen, said, drive);
     }
+
+    // The power goes before another mission begins, and is back after two seconds; then no plan is
+    // left.
+    let mut level = at_rest();
+    let drives = Drive { at_goal: false, stands: false };
+    period(&mut level, 10_000, raised("module silent"), Some(Told::Begins), drives);
+    let mut flash = [0; LEVEL_STORED_BYTES];
+    let written = level.level().snapshot().write(&mut flash).expect("as many as it needs");
+    print!("stored {} bytes:", written.len());
+    for byte in written {
+        print!(" {byte:02x}");
+    }
+    println!();
+    let stored = StoredLevel::read(&flash).expect("as it was written");
+    let restored = Level::restore(TABLES, Checked(system::Program), Millis(12_000), &stored);
+    let mut level = Decider::new(restored.expect("sound"));
+    for now in (12_000..=12_500).step_by(100) {
+        let seen = if now == 12_100 { raised("module silent") } else { sound };
+        period(&mut level, now, seen, Some(Told::Begins), drives);
+    }
+    let none = FAILURES.iter().position(|it| *it == "PLN1").expect("a failure");
+    level.report(none, Cause(0));
+    period(&mut level, 12_600, sound, None, drives);
+    period(&mut level, 12_700, sound, None, drives);
 }
 
 /// Knuth's MMIX generator; the upper bits are the better ones.

@@ -1,9 +1,11 @@
-/* Cotama from C: supervisors, the decisional level of the delivery robot, allocation.
+/* Cotama from C: supervisors, the decisional level of a robot, allocation.
  *
  * Memory is the caller's, and there is no heap: each handle has a number of bytes, the constant
  * COTAMA_..._BYTES, and lies at an address that is a multiple of 8. Functions answer with a
  * cotama_error; where it is not COTAMA_ERROR_OK, nothing has happened. Times are milliseconds of
- * the caller's clock. A handle is for one thread at a time. */
+ * the caller's clock. A handle is for one thread at a time.
+ *
+ * The numbers of the robot, and the bytes of its level, are those of cotama_robot.h. */
 
 #ifndef COTAMA_H
 #define COTAMA_H
@@ -51,14 +53,8 @@
 // "Never", where a number is an instant.
 #define COTAMA_NEVER UINT64_MAX
 
-// The bytes of a `cotama_level`, at an address that is a multiple of 8.
-#define COTAMA_LEVEL_BYTES 960
-
 // The bytes of a `cotama_monitor`, at an address that is a multiple of 8.
 #define COTAMA_MONITOR_BYTES 128
-
-// All modules, as a set.
-#define COTAMA_MODULES_ALL 1048575
 
 // The bytes of a `cotama_watchdog`, at an address that is a multiple of 8.
 #define COTAMA_WATCHDOG_BYTES 48
@@ -85,7 +81,7 @@ enum cotama_error
   COTAMA_ERROR_OVERLAP = 4,
   // The memory holds no such handle: none was started there, or one of another type.
   COTAMA_ERROR_NOT_STARTED = 5,
-  // The handle is in use by the call from which this one is made, in a callback.
+  // The handle is in use by a call that this one has interrupted.
   COTAMA_ERROR_BUSY = 6,
   // A number stands for nothing here, or is out of its range.
   COTAMA_ERROR_BAD_NUMBER = 7,
@@ -97,6 +93,8 @@ enum cotama_error
   COTAMA_ERROR_OTHER_NET = 10,
   // Stored bytes say what cannot be, such as a broken law.
   COTAMA_ERROR_IMPOSSIBLE = 11,
+  // The numbers of the header are of another robot, or of another mission.
+  COTAMA_ERROR_OTHER_ROBOT = 12,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -183,190 +181,7 @@ typedef int32_t cotama_outcome;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// The observation of an observer: flag `n` is bit `n` of a set of flags.
-enum cotama_flag
-#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint32_t
-#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
-  // O-SEN: a sonar at its largest range for long while the robot moves.
-  COTAMA_FLAG_SONAR_FAR = 0,
-  // O-SEN: no fresh range.
-  COTAMA_FLAG_SONAR_SILENT = 1,
-  // O-SEN: a sonar at one short range while the robot moves.
-  COTAMA_FLAG_SONAR_NEAR = 2,
-  // O-SEN: many readings rejected.
-  COTAMA_FLAG_SONAR_OUTLIERS = 3,
-  // O-SEN: the sonars see free space where the bumper is closed.
-  COTAMA_FLAG_FREE_AHEAD = 4,
-  // O-SEN: no camera frame.
-  COTAMA_FLAG_NO_FRAME = 5,
-  // O-COM or O-SEN: camera frames come late.
-  COTAMA_FLAG_OLD_FRAME = 6,
-  // O-SEN, O-LOC or O-PF, for any module: a value out of its interval.
-  COTAMA_FLAG_VALUE_OUTSIDE = 7,
-  // O-EFF: the filter's residual says that wheel and encoder disagree.
-  COTAMA_FLAG_WHEEL_RESIDUAL = 8,
-  // O-EFF: a residual that went back to normal.
-  COTAMA_FLAG_WHEEL_PEAK = 9,
-  // O-EFF: a wheel does not follow its command.
-  COTAMA_FLAG_WHEEL_DISOBEYS = 10,
-  // O-EFF: the estimated gain of an actuator is low.
-  COTAMA_FLAG_WHEEL_GAIN = 11,
-  // O-EFF or P3D: speed above the limit, or against the command.
-  COTAMA_FLAG_RUNAWAY = 12,
-  // O-LOC: odometric and MCL pose are far apart.
-  COTAMA_FLAG_POSE_DISTANCE = 13,
-  // O-LOC: odometric and MCL pose move apart quickly.
-  COTAMA_FLAG_POSE_GROWTH = 14,
-  // O-LOC: odometric and MCL pose moved apart for a moment.
-  COTAMA_FLAG_POSE_PEAK = 15,
-  // O-LOC: odometric and MCL pose move apart slowly, always the same way.
-  COTAMA_FLAG_SLOW_DRIFT = 16,
-  // O-LOC: a pose jumped.
-  COTAMA_FLAG_POSE_JUMP = 17,
-  // O-LOC: the particles are spread wide.
-  COTAMA_FLAG_SPREAD = 18,
-  // O-PF: backward for too long.
-  COTAMA_FLAG_BACKWARD = 19,
-  // O-PF: the path error does not converge.
-  COTAMA_FLAG_NO_CONVERGENCE = 20,
-  // O-PF: hardly any progress.
-  COTAMA_FLAG_NO_PROGRESS = 21,
-  // O-COM: no link, no heartbeat.
-  COTAMA_FLAG_LINK_DOWN = 22,
-  // O-COM: level or noise out of its interval.
-  COTAMA_FLAG_LINK_POOR = 23,
-  // P3D: a bumper is closed.
-  COTAMA_FLAG_BUMPER = 24,
-  // P3D: the motors stall.
-  COTAMA_FLAG_STALL = 25,
-  // P3D: the emergency button.
-  COTAMA_FLAG_EMERGENCY_STOP = 26,
-  // P3D: low voltage.
-  COTAMA_FLAG_BATTERY_LOW = 27,
-  // P3D: critical voltage.
-  COTAMA_FLAG_BATTERY_CRITICAL = 28,
-  // P3D: no packet from the robot.
-  COTAMA_FLAG_PACKET_SILENCE = 29,
-  // P3D: many checksum errors.
-  COTAMA_FLAG_PACKET_ERRORS = 30,
-  // P3D: the packet sequence starts anew.
-  COTAMA_FLAG_SEQUENCE_RESTART = 31,
-  // SCH: MCL missed several deadlines in a row.
-  COTAMA_FLAG_MCL_LATE = 32,
-  // SCH: one job was late, inside its extra time.
-  COTAMA_FLAG_ONE_LATE = 33,
-  // SCH: another module missed several deadlines in a row.
-  COTAMA_FLAG_MODULE_LATE = 34,
-  // SCH: a module completes nothing any more.
-  COTAMA_FLAG_MODULE_SILENT = 35,
-  // PPL: the planner failed or timed out.
-  COTAMA_FLAG_PLAN_FAILED = 36,
-  // The contextual supervisor's timer: the operator does not answer.
-  COTAMA_FLAG_OPERATOR_SILENT = 37,
-  // On the operator's side: no heartbeat from the robot.
-  COTAMA_FLAG_ROBOT_SILENT = 38,
-};
-#ifndef __cplusplus
-#if __STDC_VERSION__ >= 202311L
-typedef enum cotama_flag cotama_flag;
-#else
-typedef uint32_t cotama_flag;
-#endif // __STDC_VERSION__ >= 202311L
-#endif // __cplusplus
-
-// A module of the executive level: module `n` is bit `n` of a set of modules.
-enum cotama_module
-#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint32_t
-#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
-  // Scheduler, and observer of real-time faults.
-  COTAMA_MODULE_SCH = 0,
-  // Global observation module: collects flags, diagnoses, keeps the status vector.
-  COTAMA_MODULE_GOM = 1,
-  // Link to the robot's micro-controller.
-  COTAMA_MODULE_P3D = 2,
-  // Hardware in the loop: makes the sonar values.
-  COTAMA_MODULE_SIM = 3,
-  // Sonar values made usable.
-  COTAMA_MODULE_UST = 4,
-  // Monte Carlo localisation.
-  COTAMA_MODULE_MCL = 5,
-  // Odometric pose.
-  COTAMA_MODULE_ODO = 6,
-  // Navigation: selection of the pose, control law.
-  COTAMA_MODULE_NAV = 7,
-  // The asymptotic control law with saturation of the actuators.
-  COTAMA_MODULE_CTR = 8,
-  // Path planning.
-  COTAMA_MODULE_PPL = 9,
-  // Guidance: path following alone.
-  COTAMA_MODULE_GUI = 10,
-  // Safe manoeuvring zone: avoidance and guidance in one.
-  COTAMA_MODULE_SMZ = 11,
-  // Deformable virtual zone: reactive avoidance.
-  COTAMA_MODULE_DVZ = 12,
-  // The wireless link to the operator.
-  COTAMA_MODULE_LAN = 13,
-  // Camera stream for the operator.
-  COTAMA_MODULE_CAM = 14,
-  // Observer of sensor data.
-  COTAMA_MODULE_O_SEN = 15,
-  // Observer of motors and wheels.
-  COTAMA_MODULE_O_EFF = 16,
-  // Observer of the link to the operator.
-  COTAMA_MODULE_O_COM = 17,
-  // Observer of localisation.
-  COTAMA_MODULE_O_LOC = 18,
-  // Observer of path following.
-  COTAMA_MODULE_O_PF = 19,
-};
-#ifndef __cplusplus
-#if __STDC_VERSION__ >= 202311L
-typedef enum cotama_module cotama_module;
-#else
-typedef uint32_t cotama_module;
-#endif // __STDC_VERSION__ >= 202311L
-#endif // __cplusplus
-
-// A set of modules that serves one sub-objective.
-enum cotama_configuration
-#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint32_t
-#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
-  // Path planning.
-  COTAMA_CONFIGURATION_PLANNING = 0,
-  // Path following, optimal.
-  COTAMA_CONFIGURATION_FOLLOWING_OPTIMAL = 1,
-  // The same with fewer particles.
-  COTAMA_CONFIGURATION_FOLLOWING_REDUCED = 2,
-  // Path following by odometry, with avoidance.
-  COTAMA_CONFIGURATION_FOLLOWING_ODOMETRIC = 3,
-  // Path following without avoidance and localisation, slower.
-  COTAMA_CONFIGURATION_FOLLOWING_DEGRADED = 4,
-  // Path following with the other avoidance.
-  COTAMA_CONFIGURATION_FOLLOWING_DVZ = 5,
-  // The robot stands; the operator edits way-points or a path.
-  COTAMA_CONFIGURATION_TELEPROGRAMMING = 6,
-  // Teleoperation with avoidance.
-  COTAMA_CONFIGURATION_TELEOPERATION_FULL = 7,
-  // Teleoperation without.
-  COTAMA_CONFIGURATION_TELEOPERATION_DEGRADED = 8,
-  // Stop, alarm, warning.
-  COTAMA_CONFIGURATION_SECURITY = 9,
-};
-#ifndef __cplusplus
-#if __STDC_VERSION__ >= 202311L
-typedef enum cotama_configuration cotama_configuration;
-#else
-typedef uint32_t cotama_configuration;
-#endif // __STDC_VERSION__ >= 202311L
-#endif // __cplusplus
-
-// A word of the mission, of the planner of paths, or of the operator.
+// A word for the supervisors: what it is about.
 enum cotama_word
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -374,26 +189,24 @@ enum cotama_word
  {
   // Nobody says anything.
   COTAMA_WORD_NOTHING = 0,
-  // A mission is given.
-  COTAMA_WORD_MISSION_RECEIVED = 1,
-  // The object is on board.
-  COTAMA_WORD_OBJECT_RECEIVED = 2,
-  // The object was handed over.
-  COTAMA_WORD_OBJECT_DELIVERED = 3,
-  // A path is planned.
-  COTAMA_WORD_PATH_READY = 4,
-  // The operator wants to edit way-points or a path.
-  COTAMA_WORD_TELEPROGRAM = 5,
-  // The operator wants to drive.
-  COTAMA_WORD_TELEOPERATE = 6,
-  // The operator gives way-points.
-  COTAMA_WORD_WAYPOINTS = 7,
-  // The operator gives a path.
-  COTAMA_WORD_NEW_PATH = 8,
-  // The operator has driven to the goal.
-  COTAMA_WORD_ARRIVED = 9,
-  // The operator gives up.
-  COTAMA_WORD_GIVES_UP = 10,
+  // The mission begins; of a robot without one, a drive.
+  COTAMA_WORD_BEGINS = 1,
+  // The task for which the robot stands in an objective, a `COTAMA_STEP_...`, is done.
+  COTAMA_WORD_OVER = 2,
+  // The robot stands, after the mission was ended.
+  COTAMA_WORD_STOPPED = 3,
+  // A sub-objective, a `COTAMA_SUB_OBJECTIVE_...`, is reached.
+  COTAMA_WORD_REACHED = 4,
+  // Failures of a report, a `COTAMA_REPORT_...`, were found.
+  COTAMA_WORD_REPORT = 5,
+  // Parts that a loss, a `COTAMA_LOSS_...`, took work again.
+  COTAMA_WORD_BACK = 6,
+  // The operator chooses one of his sub-objectives.
+  COTAMA_WORD_CHOOSES = 7,
+  // The operator is done with one of his sub-objectives.
+  COTAMA_WORD_DONE = 8,
+  // The operator gives up, or is silent for too long.
+  COTAMA_WORD_GIVES_UP = 9,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -425,48 +238,6 @@ enum cotama_objective
 typedef enum cotama_objective cotama_objective;
 #else
 typedef uint32_t cotama_objective;
-#endif // __STDC_VERSION__ >= 202311L
-#endif // __cplusplus
-
-// Why a plan is needed.
-enum cotama_why
-#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint32_t
-#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
-  // Modules are lost: `detail` is their set.
-  COTAMA_WHY_LOST = 0,
-  // Modules have returned: `detail` is their set.
-  COTAMA_WHY_RETURNED = 1,
-  // The margin of an axis is below zero: `detail` is the axis.
-  COTAMA_WHY_MARGIN = 2,
-};
-#ifndef __cplusplus
-#if __STDC_VERSION__ >= 202311L
-typedef enum cotama_why cotama_why;
-#else
-typedef uint32_t cotama_why;
-#endif // __STDC_VERSION__ >= 202311L
-#endif // __cplusplus
-
-// The outcome of a plan that was asked for.
-enum cotama_replanned
-#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint32_t
-#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
- {
-  // There is a plan, and the one in force had to be looked at.
-  COTAMA_REPLANNED_PLANNED = 0,
-  // The plan in force was not touched by it.
-  COTAMA_REPLANNED_NOT_TOUCHED = 1,
-  // No plan is left that keeps the limits; the one in force stays.
-  COTAMA_REPLANNED_NO_PLAN_LEFT = 2,
-};
-#ifndef __cplusplus
-#if __STDC_VERSION__ >= 202311L
-typedef enum cotama_replanned cotama_replanned;
-#else
-typedef uint32_t cotama_replanned;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -535,7 +306,7 @@ typedef uint32_t cotama_watchdog_place;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// The decisional level, in the caller's memory: supervisors, diagnosis and decisions.
+// The decisional level, in the caller's memory: diagnosis, supervisors and settings.
 typedef struct cotama_level cotama_level;
 
 // A monitor of the margins of a mission, in the caller's memory.
@@ -601,66 +372,47 @@ typedef struct cotama_answer {
 
 // The news of observers and the scheduler in a period.
 typedef struct cotama_perceived {
-  // Flags that are raised now: bit `n` is `cotama_flag` `n`.
+  // Flags that are raised now: bit `n` is `COTAMA_FLAG_...` `n`.
   uint64_t raised;
   // Flags that were raised and have gone back.
   uint64_t lowered;
-  // The module that raised flags are about, where they are about one whichever it is: bit `n` is
-  // `cotama_module` `n`.
-  uint32_t part;
-  // The modules that say that they work, in use or not.
-  uint32_t works;
+  // The modules that say that they work, in use or not: bit `n` is `COTAMA_MODULE_...` `n`.
+  uint64_t works;
 } cotama_perceived;
 
-// The plan of a mission: which configuration each drive uses. Where a function is null, the
-// mission has no limits and each drive uses the best that works.
-//
-// The functions are called while the level perceives, and may not use that level, nor start it
-// anew: it answers `COTAMA_ERROR_BUSY`.
-typedef struct cotama_plans {
-  // Handed to the functions.
-  void *context;
-  // Whether nothing is left to be planned: 0 no, any other number yes.
-  uint8_t (*is_over)(void *context);
-  // Plans what is left with these modules, because of a `cotama_why`; answers with a
-  // `cotama_replanned`, and any other number says that no plan is left.
-  uint32_t (*plan)(void *context, uint32_t why, uint32_t detail, uint32_t available);
-  // The `cotama_configuration` that is planned for the drive under way or the next one, or
-  // `COTAMA_NONE`.
-  uint32_t (*configuration)(void *context);
-  // The axis on which the drive under way no longer keeps its limit, or `COTAMA_NONE`.
-  uint32_t (*short_axis)(void *context);
-} cotama_plans;
+// Memory for the failures that are found during a call, the worst first, each a
+// `COTAMA_FAILURE_...`.
+typedef struct cotama_failures {
+  // Memory for failures; null when `room` is 0.
+  uint32_t *list;
+  // For how many.
+  size_t room;
+  // How many there were: written by each call. Those beyond `room` are counted, not noted.
+  size_t count;
+} cotama_failures;
 
-// The diagnosis of raised flags.
-typedef struct cotama_finding {
-  // The flags raised.
-  uint64_t flags;
-  // The rows of the FMECA that explain it, bit `n` for mode `n`: one where the diagnosis is
-  // unique, none where nothing explains it.
-  uint64_t modes;
-  // Number of the finding, from 1 on; 0 where nothing was found.
+// Something that the supervisors are told.
+typedef struct cotama_told {
+  // A `cotama_word`,
+  uint32_t word;
+  // and the number of what it is about; 0 where it is about nothing that has one.
   uint32_t number;
-  // A part of it at least is recorded only, and nobody has to decide.
-  bool recorded;
-} cotama_finding;
+} cotama_told;
 
 // State of the drive: 0 says no, any other number yes.
-typedef struct cotama_body {
+typedef struct cotama_drive {
   // The goal of the drive is reached.
   uint8_t at_goal;
   // The robot does not move.
   uint8_t stands;
-} cotama_body;
+} cotama_drive;
 
 // The outcome of a round.
 typedef struct cotama_round {
-  // The finding about the silence of the operator.
-  struct cotama_finding finding;
-  // The net that was told something, else `COTAMA_NONE`;
-  uint32_t net;
-  // and the event of that net.
-  uint32_t event;
+  // The modules that are to be started anew now: bit `n` is `COTAMA_MODULE_...` `n`.
+  uint64_t restarts;
+  // What the supervisors were told and have accepted.
+  struct cotama_told told;
 } cotama_round;
 
 // A transition that has fired.
@@ -687,14 +439,12 @@ typedef struct cotama_firings {
 
 // The requests to the robot until the next round.
 typedef struct cotama_requests {
-  // The fastest it may go, mm/s.
+  // The fastest it may go, mm/s, as the configuration and the settings leave it.
   uint64_t speed_mm_s;
-  // The modules that are to run, a `cotama_configuration`; `COTAMA_NONE` where nothing does.
+  // The reports whose settings hold: bit `n` is `COTAMA_REPORT_...` `n`.
+  uint64_t settings;
+  // The modules that are to run, a `COTAMA_CONFIGURATION_...`; `COTAMA_NONE` where nothing does.
   uint32_t configuration;
-  // Factor that adapted settings leave of the speed, in thousandths,
-  uint16_t speed_permille;
-  // and of the quality of what is driven.
-  uint16_t quality_permille;
   // Motion may be commanded.
   bool drive;
   // Motor power is to be cut for good.
@@ -767,31 +517,32 @@ const char *cotama_error_text(int32_t error);
 // Starts the level of a robot at rest, all of which works, in `bytes` bytes of memory, which are
 // its from now on.
 //
-// `planned` is the `cotama_configuration` of the first drive by the plan, or `COTAMA_NONE`. In a
-// callback the level that is in use cannot be started anew: `COTAMA_ERROR_BUSY`. So the first
-// eight bytes of memory are looked at: set them to 0 before the first start, and after a reset
-// that has kept them.
+// `robot` is `COTAMA_ROBOT`; a header of another robot or mission is refused.
 //
 // # Safety
 // The pointers are null or point to what their types say, of the lengths given.
 cotama_error cotama_level_start(void *memory,
                                 size_t bytes,
-                                uint32_t planned,
+                                uint64_t robot,
                                 struct cotama_level **level);
 
-// Observers tell what they see. At most one finding comes of it.
+// Observers tell what they see. New flags are taken for failures, which wait to be told.
 //
-// `plans` is how the mission is planned, and may be null: then each drive uses the best that
-// works. `finding` may be null.
+// `failures` may be null.
 //
 // # Safety
-// The pointers are null or point to what their types say; the functions of `plans` may be called
-// with its context; no other thread uses the level.
+// The pointers are null or point to what their types say; no other thread uses the level.
 cotama_error cotama_level_perceive(struct cotama_level *level,
                                    uint64_t now_ms,
                                    const struct cotama_perceived *seen,
-                                   const struct cotama_plans *plans,
-                                   struct cotama_finding *finding);
+                                   struct cotama_failures *failures);
+
+// Lets a failure that no flag shows, such as that no plan is left, wait to be told: a
+// `COTAMA_FAILURE_...`.
+//
+// # Safety
+// The pointer is null or points to a level that no other thread uses.
+cotama_error cotama_level_report(struct cotama_level *level, uint32_t failure);
 
 // Whether what is said in the coming round is heard: reports go first.
 //
@@ -800,16 +551,16 @@ cotama_error cotama_level_perceive(struct cotama_level *level,
 cotama_error cotama_level_listens(const struct cotama_level *level, bool *listens);
 
 // A round: the supervisors take their turns, and are told one thing: the oldest report, else what
-// the body shows, else `word`, a `cotama_word`. It is not heard unless the level listens.
+// the drive shows, else what is said. It is not heard unless the level listens.
 //
-// `round` and `firings` may be null.
+// `said` may be null, which says nothing, as do `round` and `firings`, which nobody wants then.
 //
 // # Safety
 // The pointers are null or point to what their types say; no other thread uses the level.
 cotama_error cotama_level_round(struct cotama_level *level,
                                 uint64_t now_ms,
-                                uint32_t word,
-                                const struct cotama_body *body,
+                                const struct cotama_told *said,
+                                const struct cotama_drive *drive,
                                 struct cotama_round *round,
                                 struct cotama_firings *firings);
 
@@ -818,7 +569,34 @@ cotama_error cotama_level_round(struct cotama_level *level,
 // # Safety
 // The pointers are null or point to what their types say; no other thread uses the level.
 cotama_error cotama_level_requests(const struct cotama_level *level,
+                                   uint64_t now_ms,
                                    struct cotama_requests *requests);
+
+// Stores the supervisors in `COTAMA_LEVEL_STORED_BYTES` bytes with a checksum; `written` may be
+// null.
+//
+// # Safety
+// The pointers are null or point to what their types say, of the lengths given; no other thread
+// uses the level.
+cotama_error cotama_level_store(const struct cotama_level *level,
+                                uint8_t *bytes,
+                                size_t room,
+                                size_t *written);
+
+// Starts a level at `now_ms` where stored supervisors were. Flags that are still raised, reports
+// that were not told and settings are forgotten: observers tell again what they see.
+//
+// `robot` is `COTAMA_ROBOT`.
+//
+// # Safety
+// The pointers are null or point to what their types say, of the lengths given.
+cotama_error cotama_level_restore(void *memory,
+                                  size_t bytes,
+                                  uint64_t robot,
+                                  uint64_t now_ms,
+                                  const uint8_t *stored,
+                                  size_t length,
+                                  struct cotama_level **level);
 
 // The names of a net of the level and of one of its transitions, as in a firing.
 //
@@ -828,15 +606,6 @@ cotama_error cotama_level_transition_names(uint32_t net,
                                            uint32_t transition,
                                            struct cotama_text *net_name,
                                            struct cotama_text *transition_name);
-
-// The names of a net of the level and of one of its events, as in a round.
-//
-// # Safety
-// The pointers are null or point to memory for texts.
-cotama_error cotama_level_event_names(uint32_t net,
-                                      uint32_t event,
-                                      struct cotama_text *net_name,
-                                      struct cotama_text *event_name);
 
 // Starts a monitor of these inclusive limits, with nothing used, that never asks for a better
 // plan; `order` are the axes in their order of treatment.
@@ -912,29 +681,47 @@ cotama_error cotama_monitor_assess(const struct cotama_monitor *monitor,
                                    cotama_request *request,
                                    uint32_t *axis);
 
-// The name of a `cotama_flag` in print.
+// The name of a `COTAMA_FLAG_...` in print.
 //
 // # Safety
 // The pointer is null or points to memory for a text.
 cotama_error cotama_flag_name(uint32_t flag, struct cotama_text *name);
 
-// The name of a `cotama_module` in print.
+// The name of a `COTAMA_MODULE_...` in print.
 //
 // # Safety
 // The pointer is null or points to memory for a text.
 cotama_error cotama_module_name(uint32_t module, struct cotama_text *name);
 
-// The name of a `cotama_configuration` in print.
+// The name of a `COTAMA_SUB_OBJECTIVE_...` in print.
+//
+// # Safety
+// The pointer is null or points to memory for a text.
+cotama_error cotama_sub_objective_name(uint32_t sub_objective, struct cotama_text *name);
+
+// The name of a `COTAMA_CONFIGURATION_...` in print.
 //
 // # Safety
 // The pointer is null or points to memory for a text.
 cotama_error cotama_configuration_name(uint32_t configuration, struct cotama_text *name);
 
-// The name of a row of the FMECA, such as SON1: mode `n` is bit `n` of the modes of a finding.
+// The name of a `COTAMA_FAILURE_...` in print.
 //
 // # Safety
 // The pointer is null or points to memory for a text.
-cotama_error cotama_failure_mode_name(uint32_t mode, struct cotama_text *name);
+cotama_error cotama_failure_name(uint32_t failure, struct cotama_text *name);
+
+// The name of a `COTAMA_REPORT_...` in print: that of its first failure.
+//
+// # Safety
+// The pointer is null or points to memory for a text.
+cotama_error cotama_report_name(uint32_t report, struct cotama_text *name);
+
+// The name of a `COTAMA_LOSS_...` in print.
+//
+// # Safety
+// The pointer is null or points to memory for a text.
+cotama_error cotama_loss_name(uint32_t loss, struct cotama_text *name);
 
 // The time of a count, ms: the nearest to the latest one that has these low 32 bits.
 //

@@ -19,7 +19,7 @@ pub enum cotama_error {
     Overlap = 4,
     /// The memory holds no such handle: none was started there, or one of another type.
     NotStarted = 5,
-    /// The handle is in use by the call from which this one is made, in a callback.
+    /// The handle is in use by a call that this one has interrupted.
     Busy = 6,
     /// A number stands for nothing here, or is out of its range.
     BadNumber = 7,
@@ -31,6 +31,8 @@ pub enum cotama_error {
     OtherNet = 10,
     /// Stored bytes say what cannot be, such as a broken law.
     Impossible = 11,
+    /// The numbers of the header are of another robot, or of another mission.
+    OtherRobot = 12,
 }
 
 /// The result of a function, for callers who are not C.
@@ -55,12 +57,13 @@ pub extern "C" fn cotama_error_text(error: i32) -> *const c_char {
         3 => c"memory is shorter than what it is for",
         4 => c"memory that is written overlaps memory that is used at the same time",
         5 => c"the memory holds no such handle: none was started there, or one of another type",
-        6 => c"the handle is in use by the call from which this one is made",
+        6 => c"the handle is in use by a call that this one has interrupted",
         7 => c"a number stands for nothing here, or is out of its range",
         8 => c"an activity has no candidate",
         9 => c"the stored bytes are not as they were written",
         10 => c"the stored bytes are of another net, or of another version of it",
         11 => c"the stored bytes say what cannot be, such as a broken law",
+        12 => c"the numbers of the header are of another robot, or of another mission",
         _ => c"there is no such error",
     };
     text.as_ptr()

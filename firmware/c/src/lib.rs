@@ -1,8 +1,8 @@
 //! Cotama from C: supervisors, the decisional level, allocation.
 //!
-//! `include/cotama.h` is made of this crate by cbindgen; the package `library` beside it is the
-//! static library that C links. A C program that runs a supervisor and the allocator is
-//! `example.c`.
+//! `include/cotama.h` is made of this crate by cbindgen, `include/cotama_robot.h` of a robot's file
+//! by the build script; the package `library` beside it is the static library that C links. A C
+//! program that runs a supervisor, the decisional level and the allocator is `example.c`.
 //!
 //! - *Memory* is the caller's: a handle lies where the caller says, in a number of bytes that the
 //!   header names. There is no heap, and nothing is kept anywhere else.
@@ -19,15 +19,17 @@
 
 pub mod allocation;
 pub mod error;
+pub mod failures;
 pub mod firings;
 pub mod level;
 pub mod memory;
 pub mod monitor;
 pub mod names;
-pub mod plans;
+pub mod robot;
 pub mod supervisor;
 pub mod tables;
 pub mod ticks;
+pub mod told;
 pub mod watchdog;
 
 /// The version of this header, as numbers. Programs made with one minor version of 0 need a library

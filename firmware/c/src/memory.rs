@@ -266,16 +266,6 @@ pub(crate) struct Place<H: Handle> {
 }
 
 impl<H: Handle> Place<H> {
-    /// Checks that no handle of this type is in use there.
-    ///
-    /// # Safety
-    /// The first eight bytes are initialised.
-    pub(crate) unsafe fn unless_in_use(self) -> Result<Self, cotama_error> {
-        // SAFETY: address and length were checked, and it is promised that bytes are there.
-        let mark = unsafe { self.kept.cast::<u64>().read() };
-        if mark == !H::MARK { Err(cotama_error::Busy) } else { Ok(self) }
-    }
-
     /// Puts a handle there.
     pub(crate) fn start(self, value: H::Value) {
         // SAFETY: address and length were checked, and the memory is the handle's.
@@ -288,7 +278,7 @@ impl<H: Handle> Place<H> {
 pub(crate) struct Started<H: Handle>(*mut Kept<H::Value>);
 
 impl<H: Handle> Started<H> {
-    /// Lends the value. Whoever calls with the same handle from within is told that it is busy.
+    /// Lends the value. Whoever calls with the same handle meanwhile is told that it is busy.
     pub(crate) fn with<R>(self, act: impl FnOnce(&mut H::Value) -> R) -> R {
         // SAFETY: the mark said that a value of this type lies there. The mark is written by its
         // address alone, and is no part of the value that is lent; it keeps a second loan away.

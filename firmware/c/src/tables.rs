@@ -57,32 +57,12 @@ pub const fn transitions(system: &System<'_>, nets: usize) -> usize {
     sum
 }
 
-/// How many events there are in the first so many nets.
-pub const fn events(system: &System<'_>, nets: usize) -> usize {
-    let (mut sum, mut at) = (0, 0);
-    while at < nets {
-        sum += system.components[at].net.events.len();
-        at += 1;
-    }
-    sum
-}
-
 /// Returns the start of the transitions of each net, and the end of the last; `N` is one more than
 /// nets.
 pub const fn first_transitions<const N: usize>(system: &System<'_>) -> [u16; N] {
     let (mut firsts, mut at) = ([0; N], 0);
     while at < N {
         firsts[at] = transitions(system, at) as u16;
-        at += 1;
-    }
-    firsts
-}
-
-/// Returns the start of the events of each net, and the end of the last; `N` is one more than nets.
-pub const fn first_events<const N: usize>(system: &System<'_>) -> [u16; N] {
-    let (mut firsts, mut at) = ([0; N], 0);
-    while at < N {
-        firsts[at] = events(system, at) as u16;
         at += 1;
     }
     firsts
@@ -134,21 +114,7 @@ pub const fn transition_names<'n, const T: usize>(system: &System<'n>) -> [&'n s
     names
 }
 
-/// The names of all `E` events.
-pub const fn event_names<'n, const E: usize>(system: &System<'n>) -> [&'n str; E] {
-    let (mut names, mut at, mut net) = ([""; E], 0, 0);
-    while net < system.components.len() {
-        let (own, mut number) = (system.components[net].net, 0);
-        while number < own.events.len() {
-            names[at] = own.events[number].name;
-            (at, number) = (at + 1, number + 1);
-        }
-        net += 1;
-    }
-    names
-}
-
-/// Tables of a system, as `static` items: `SAYS`, and, if asked for, `TRANSITIONS` and `EVENTS`.
+/// Tables of a system, as `static` items: `SAYS` and `TRANSITIONS`.
 #[macro_export]
 macro_rules! tables {
     ($system:expr) => {
@@ -170,15 +136,6 @@ macro_rules! tables {
             names: &$crate::tables::transition_names::<
                 { $crate::tables::transitions(&TABLES_OF, NETS) },
             >(&TABLES_OF),
-        };
-        /// The names of its events.
-        #[allow(dead_code)]
-        static EVENTS: $crate::tables::NamesOf<'static> = $crate::tables::NamesOf {
-            nets: &$crate::tables::net_names::<NETS>(&TABLES_OF),
-            firsts: &$crate::tables::first_events::<{ NETS + 1 }>(&TABLES_OF),
-            names: &$crate::tables::event_names::<{ $crate::tables::events(&TABLES_OF, NETS) }>(
-                &TABLES_OF,
-            ),
         };
     };
 }
