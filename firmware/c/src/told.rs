@@ -61,7 +61,7 @@ impl From<Option<Told>> for cotama_told {
 }
 
 impl cotama_told {
-    /// What it stands for, where that is not nothing.
+    /// Reads what it stands for; `None` for nothing.
     pub(crate) fn read(self) -> Result<Option<Told>, cotama_error> {
         let it = self.number as usize;
         Ok(Some(match (self.word, self.number) {
