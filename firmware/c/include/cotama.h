@@ -387,7 +387,7 @@ typedef struct cotama_failures {
   uint32_t *list;
   // For how many.
   size_t room;
-  // How many there were: written by each call. Those beyond `room` are counted, not noted.
+  // Number of them: written by each call. Those beyond `room` are counted, not noted.
   size_t count;
 } cotama_failures;
 
@@ -411,7 +411,7 @@ typedef struct cotama_drive {
 typedef struct cotama_round {
   // The modules that are to be started anew now: bit `n` is `COTAMA_MODULE_...` `n`.
   uint64_t restarts;
-  // What the supervisors were told and have accepted.
+  // Word that the supervisors accepted; `COTAMA_WORD_NOTHING` where there was none.
   struct cotama_told told;
 } cotama_round;
 

@@ -12,7 +12,7 @@ pub struct cotama_failures {
     pub list: *mut u32,
     /// For how many.
     pub room: usize,
-    /// How many there were: written by each call. Those beyond `room` are counted, not noted.
+    /// Number of them: written by each call. Those beyond `room` are counted, not noted.
     pub count: usize,
 }
 

@@ -55,7 +55,7 @@ pub struct cotama_drive {
 pub struct cotama_round {
     /// The modules that are to be started anew now: bit `n` is `COTAMA_MODULE_...` `n`.
     pub restarts: u64,
-    /// What the supervisors were told and have accepted.
+    /// Word that the supervisors accepted; `COTAMA_WORD_NOTHING` where there was none.
     pub told: cotama_told,
 }
 

@@ -1,4 +1,4 @@
-//! What the supervisors are told, as numbers.
+//! Words for the supervisors, as numbers.
 
 use crate::error::cotama_error;
 use cotama_models::level::Told;
