@@ -100,7 +100,8 @@ impl Adapted {
     /// Returns the losses, a bit each, of those known that have been over for long enough, and that
     /// nobody was told of yet.
     pub fn back(&mut self, tables: &Tables<'_>, known: u32, now: Millis) -> u32 {
-        let returns = tables.losses.iter().enumerate().filter(|it| it.1.back.is_some());
+        let returns = tables.losses.iter().enumerate();
+        let returns = returns.filter(|it| it.0 < MAX_LOSSES && it.1.back.is_some());
         let known = known & returns.fold(0, |set, it| set | 1 << it.0);
         for it in bits(u64::from(known & !self.known)) {
             self.there.get_mut(it).into_iter().for_each(|it| *it = now);

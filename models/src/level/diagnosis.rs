@@ -37,8 +37,8 @@ impl Rows {
     ) -> impl Iterator<Item = usize> + use<'f> {
         let rows = *self;
         Severity::ALL.into_iter().rev().flat_map(move |severity| {
-            let all = failures.iter().enumerate();
-            all.filter(move |it| rows.has(it.0) && it.1.worst == severity).map(|it| it.0)
+            let is = move |row: &usize| failures.get(*row).is_some_and(|it| it.worst == severity);
+            (0..failures.len()).filter(move |row| rows.has(*row) && is(row))
         })
     }
 }

@@ -1,6 +1,6 @@
 //! The supervisors of a robot at work: what they are told, and where they are.
 
-use super::tables::Tables;
+use super::tables::{Loss, MAX_LOSSES, Tables};
 use super::told::{Cause, Global, Told, Where};
 use cotama_core::net::PlaceId;
 use cotama_core::player::{Checked, Observer, Player, Program, RestoreError, Snapshot};
@@ -77,8 +77,9 @@ impl<'t, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
 
     /// Returns the losses that the supervisors know, a bit each.
     pub fn lost(&self) -> u32 {
-        let all = self.tables.losses.iter().enumerate();
-        all.filter(|it| self.is_marked(it.1.place)).fold(0, |set, it| set | 1 << it.0)
+        let is = |it: &(usize, &Loss)| it.0 < MAX_LOSSES && self.is_marked(it.1.place);
+        let all = self.tables.losses.iter().enumerate().filter(is);
+        all.fold(0, |set, it| set | 1 << it.0)
     }
 
     /// Whether the robot may move.

@@ -187,13 +187,15 @@ impl Tables<'_> {
 
     /// Returns the losses of which a module does not work, a bit each.
     pub fn broken(&self, works: u64) -> u32 {
-        let all = self.losses.iter().enumerate().filter(|it| it.1.modules & !works != 0);
+        let is = |it: &(usize, &Loss)| it.0 < MAX_LOSSES && it.1.modules & !works != 0;
+        let all = self.losses.iter().enumerate().filter(is);
         all.fold(0, |set, it| set | 1 << it.0)
     }
 
     /// Returns the reports, a bit each, of failures all of whose flags are up.
     pub fn shown(&self, up: u64) -> u64 {
-        let all = self.failures.iter().filter(|it| it.flags != 0 && it.flags & !up == 0);
+        let is = |it: &&Failure| usize::from(it.report) < MAX_REPORTS && it.flags & !up == 0;
+        let all = self.failures.iter().filter(|it| it.flags != 0).filter(is);
         all.fold(0, |set, it| set | 1 << it.report)
     }
 

@@ -31,10 +31,11 @@ impl Untold {
 
     /// Lets a report or a return wait, if it does not already.
     pub(super) fn push(&mut self, told: Told, cause: Cause) {
-        let number = number(told).filter(|_| !self.has(told));
-        if let (Some(number), Some(slot)) = (number, self.waiting.get_mut(self.length)) {
+        let Some(number) = number(told).filter(|_| !self.has(told)) else { return };
+        let length = self.length;
+        if let Some(slot) = self.waiting.get_mut(length) {
             *slot = (number, cause);
-            self.length += 1;
+            self.length = length + 1;
         }
     }
 
