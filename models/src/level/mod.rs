@@ -18,6 +18,8 @@ mod adapted;
 mod decider;
 mod diagnosis;
 mod motion;
+#[cfg(kani)]
+pub mod proofs;
 mod supervisors;
 mod tables;
 mod told;

@@ -122,11 +122,11 @@ fn core(all: &mut Vec<Listed>) {
 
 #[cfg(feature = "models")]
 fn models(all: &mut Vec<Listed>) {
-    list!(all, cotama_models::cotama {
-        Exhaustive: the_available_modules_are_closed_under_needs
-            more_faults_never_make_more_available
-            a_decision_is_made_in_every_situation the_table_follows_from_the_rules
-            only_an_activity_that_moves_has_the_permit the_most_particles_are_exact;
+    list!(all, cotama_models::level {
+        Exhaustive: a_diagnosis_needs_a_new_flag a_diagnosis_says_as_much_as_the_flags
+            news_wait_once_each_in_order the_least_setting_that_holds_is_the_speed
+            a_loss_is_back_after_five_seconds_without_it
+            more_flags_show_more_and_more_modules_break_less;
     });
     list!(all, cotama_models::nets {
         Exhaustive: the_net_is_the_watchdog_of_the_executive;
