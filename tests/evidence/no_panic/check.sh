@@ -68,11 +68,15 @@ while read -r name; do
 done <"$work/names"
 
 # Every net and every system of the models, and of this crate, by the module that `net!`, `system!`
-# or a macro over them makes of it, has a player's roots here.
-find ../../../models/src src -name '*.rs' -exec awk '
-    /^ *(cotama_core::|crate::)?(net|system)! *\{/ { open = 1 }
-    open && /^ *(pub )?mod [a-z0-9_]+ *(extends .*)?\{/ { sub(/pub /, ""); print $2; open = 0 }
-' {} + | sort -u >"$work/shipped"
+# or a macro over them makes of it, has a player's roots here, but for those that the printed system
+# replaces; so has that system.
+{
+    find ../../../models/src src -name '*.rs' ! -path '*/models/src/cotama/*' -exec awk '
+        /^ *(cotama_core::|crate::)?(net|system)! *\{/ { open = 1 }
+        open && /^ *(pub )?mod [a-z0-9_]+ *(extends .*)?\{/ { sub(/pub /, ""); print $2; open = 0 }
+    ' {} +
+    echo p3dx_delivery
+} | sort -u >"$work/shipped"
 sed -n 's/^\(root\|open\)_\(.*\)_start$/\2/p' "$work/names" | sort >"$work/rooted"
 if ! diff "$work/shipped" "$work/rooted"; then
     echo "the nets and systems of models/src (<) and those that have roots (>) differ" >&2

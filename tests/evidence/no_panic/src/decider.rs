@@ -1,80 +1,108 @@
-//! The roots of what is asked of a decider and of its level, and how both go on after a restart.
+//! The roots of the decisional level as one component, from flags to requests, on the supervisors
+//! that the robot's file prints.
 //!
-//! Both come as their caller can leave them at worst: with any marking and any time.
+//! It comes as its caller can leave it at worst: with any marking, any tables and any time.
 
-use cotama_core::net::{EventId, PlaceId};
-use cotama_core::player::{Checked, RestoreError, Snapshot};
+use cotama_core::player::{Firing, Observer};
 use cotama_core::system::Of;
-use cotama_core::units::Millis;
-use cotama_models::cotama::{
-    Body, DecisionalLevel, DeliveryDecider, Health, Level, Modules, Perceived, Situation, Told,
-    delivery,
-};
+use cotama_core::{net::EventId, net::TransitionId, units::Millis};
+use cotama_models::level::{Adapted, Cause, Drive, Perceived, Requests, Round, Rows, Told};
+use cotama_printed::{Careful, Decider, Level, system};
 
-/// The level whose every step is checked, as one that is restored.
-type CheckedLevel = Level<
-    Checked<delivery::Program>,
-    { delivery::SIZE.words },
-    { delivery::SIZE.clocks },
-    { delivery::SIZE.slots },
->;
+/// The last that fired, or was ignored, and why.
+#[derive(Debug)]
+pub struct Seen {
+    fired: Option<(Of<TransitionId>, Cause)>,
+    ignored: Option<(Of<EventId>, Cause)>,
+}
+
+/// Implemented for the program whose every step is checked, and for the one that trusts.
+macro_rules! seen {
+    ($($program:ty)+) => {$(
+        impl Observer<$program, Cause> for Seen {
+            fn on_fire(&mut self, firing: &Firing<'_, $program, Cause>) {
+                self.fired = Some((firing.id, firing.carries));
+            }
+
+            fn on_ignore(&mut self, event: Of<EventId>, cause: Cause) {
+                self.ignored = Some((event, cause));
+            }
+        }
+    )+};
+}
+seen! { Careful system::Program }
 
 // `no_mangle` counts as unsafe because two equal names would meet at link time: these begin with
 // `root_`, which nothing else does, and the linker starts at one of them at a time.
 #[unsafe(no_mangle)]
-fn root_level_new() -> DecisionalLevel {
-    DecisionalLevel::start(delivery::Program)
+fn root_decider_new(level: Level<Careful>) -> Decider<Careful> {
+    Decider::new(level)
 }
 
 #[unsafe(no_mangle)]
-fn root_level_snapshot(level: &DecisionalLevel, bytes: &mut [u8]) -> Option<usize> {
-    level.snapshot().write(bytes).map(<[u8]>::len)
+fn root_decider_restart(decider: &mut Decider<Careful>, level: Level<Careful>) {
+    decider.restart(level);
 }
 
 #[unsafe(no_mangle)]
-fn root_level_restore(bytes: &[u8], now: Millis) -> Option<Result<CheckedLevel, RestoreError>> {
-    Some(CheckedLevel::restore(Checked::default(), now, &Snapshot::read(bytes)?))
+fn root_decider_perceive(decider: &mut Decider<Careful>, now: Millis, seen: Perceived) -> Rows {
+    decider.perceive(now, seen)
 }
 
 #[unsafe(no_mangle)]
-fn root_level_player(level: &DecisionalLevel) -> Millis {
-    level.player().now()
+fn root_decider_period(
+    decider: &mut Decider<Careful>,
+    now: Millis,
+    said: Option<Told>,
+    drive: Drive,
+    seen: &mut Seen,
+) -> Round {
+    decider.period(now, said, drive, seen)
 }
 
 #[unsafe(no_mangle)]
-fn root_told_event(told: Told) -> Of<EventId> {
-    told.event()
+fn root_decider_trusting_period(
+    decider: &mut Decider<system::Program>,
+    now: Millis,
+    said: Option<Told>,
+    drive: Drive,
+    seen: &mut Seen,
+) -> Round {
+    decider.period(now, said, drive, seen)
 }
 
 #[unsafe(no_mangle)]
-fn root_perceived_nothing(works: Modules) -> Perceived {
-    Perceived::nothing(works)
+fn root_decider_requests(decider: &Decider<Careful>, now: Millis) -> Requests {
+    decider.requests(now)
 }
 
 #[unsafe(no_mangle)]
-fn root_decider_restart(decider: &mut DeliveryDecider, level: DecisionalLevel, known: Health) {
-    decider.restart(level, known);
+fn root_decider_report(decider: &mut Decider<Careful>, row: usize, cause: Cause) {
+    decider.report(row, cause);
 }
 
 #[unsafe(no_mangle)]
-fn root_decider_idle(decider: &mut DeliveryDecider, now: Millis, body: Body) -> Option<Millis> {
-    decider.idle(now, body);
-    decider.idle_until()
+fn root_decider_see(decider: &mut Decider<Careful>, now: Millis, shown: u64, broken: u32) {
+    decider.see(now, shown, broken);
 }
 
 #[unsafe(no_mangle)]
-fn root_decider_knows(decider: &DeliveryDecider) -> (Health, [Modules; 3]) {
-    (decider.health(), [decider.available(), decider.relied_on(), decider.observing()])
+fn root_decider_round(decider: &mut Decider<Careful>, now: Millis, seen: &mut Seen) -> u64 {
+    decider.round(now, seen)
 }
 
 #[unsafe(no_mangle)]
-fn root_decider_read(decider: &DeliveryDecider) -> (Situation, PlaceId, Millis, u32, [bool; 2]) {
-    let asked = [decider.listens(), decider.permit().is_some()];
-    let (situation, global) = (decider.situation(), decider.global());
-    (situation, global, decider.since(), decider.plannings_failed(), asked)
+fn root_decider_tell(
+    decider: &mut Decider<Careful>,
+    now: Millis,
+    told: Told,
+    cause: Cause,
+    seen: &mut Seen,
+) -> (bool, u64) {
+    decider.tell(now, told, cause, seen)
 }
 
 #[unsafe(no_mangle)]
-fn root_decider_level(decider: &DeliveryDecider) -> &DecisionalLevel {
-    decider.level()
+fn root_decider_read(decider: &Decider<Careful>) -> (&Level<Careful>, &Adapted, u64, bool) {
+    (decider.level(), decider.adapted(), decider.up(), decider.listens())
 }

@@ -8,8 +8,6 @@ use cotama_core::executive::{
     TaskSet, Watchdog,
 };
 use cotama_core::units::Micros;
-use cotama_models::cotama::Configuration;
-use cotama_models::cotama::load::{self, Load, LoadError, MOST};
 
 /// Modules of a control loop.
 const N: usize = 8;
@@ -80,15 +78,6 @@ fn root_executive_most_cost(
     task: usize,
 ) -> Option<Result<Option<Micros>, ScheduleError>> {
     Some(TaskSet::new(tasks).ok()?.most_cost(task, Overruns::One))
-}
-
-#[unsafe(no_mangle)]
-fn root_executive_most_particles(
-    configuration: Configuration,
-    load: Load,
-    memory: &mut [Task; MOST],
-) -> Result<Option<u32>, LoadError> {
-    load::most_particles(configuration, load, memory)
 }
 
 #[unsafe(no_mangle)]

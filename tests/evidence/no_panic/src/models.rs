@@ -108,7 +108,6 @@ macro_rules! roots {
 roots! {
     machine door: cotama_models::nets::door;
     machine watchdog: cotama_models::nets::watchdog;
-    machine loop_watchdog: cotama_models::cotama::load::loop_watchdog;
     machine charger: cotama_models::nets::charger;
     net crossing: cotama_models::nets::crossing;
     machine ace_request: cotama_models::nets::ace::request;
@@ -117,19 +116,5 @@ roots! {
     machine ace_accuracy: cotama_models::nets::ace::accuracy;
     machine alive: cotama_models::nets::ace::robot::alive;
     machine goal: cotama_models::nets::ace::robot::goal;
-    machine contextual: cotama_models::cotama::contextual;
-    machine faults: cotama_models::cotama::faults;
-    machine global: cotama_models::cotama::global;
-    machine local: cotama_models::cotama::local;
-    machine observation: cotama_models::cotama::observation;
-    machine operator: cotama_models::cotama::operator;
-    machine path_following: cotama_models::cotama::path_following;
-    machine permit: cotama_models::cotama::permit;
-    machine recovering_contextual: cotama_models::cotama::recovering_contextual;
-    machine recovering_faults: cotama_models::cotama::recovering_faults;
-    machine recovering_observation: cotama_models::cotama::recovering_observation;
-    machine recovering_path_following: cotama_models::cotama::recovering_path_following;
-    machine recovering_teleoperation: cotama_models::cotama::recovering_teleoperation;
-    machine recovery: cotama_models::cotama::recovery;
-    machine teleoperation: cotama_models::cotama::teleoperation;
+    machine permit: cotama_models::level::permit;
 }
