@@ -52,7 +52,8 @@ library=$CARGO_TARGET_DIR/$target/firmware/libcotama_no_std.a
 image=$(mktemp)
 trap 'rm -f "$image"' EXIT
 echo "entry point        code  tables   RAM   bytes on $target, opt-level s, overflow checks on"
-for entry in cotama_panorama cotama_exact cotama_front cotama_monitor cotama_assign cotama_team; do
+for entry in cotama_panorama cotama_exact cotama_front cotama_monitor cotama_assign cotama_team \
+    cotama_level; do
     arm-none-eabi-ld --gc-sections -e "$entry" -u "$entry" -o "$image" "$library"
     arm-none-eabi-size -A "$image" | awk -v entry="$entry" '
         $1 ~ /^\.(text|rodata|data|bss)/ { size[$1] += $2 }

@@ -1,5 +1,5 @@
-//! The core as firmware links it: allocators, front and monitor on the tables of the patrol, and
-//! teams of eight robots.
+//! The core as firmware links it: allocators, front and monitor on the tables of the patrol, teams of
+//! eight robots, and the decisional level of the delivery.
 //!
 //! This crate has a panic handler, so it does not build when anything below it needs `std`, and no
 //! global allocator, so it does not build when anything below it needs the heap. `check.sh` builds
@@ -24,9 +24,11 @@ use cotama_core::team::winners::{
     Column, Level, Open, Outcome, PlanEntry, Slot, Winners, WinnersMemory,
 };
 use cotama_core::team::{Combine, Cost, Costs, Fixed, Plan as TaskPlan, Task, Team, assign};
-use cotama_core::units::Millimetres;
+use cotama_core::units::{Millimetres, Millis};
+use cotama_models::level::{Drive, Perceived, Told};
 use cotama_models::missions::tables::patrol::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
 use cotama_models::missions::tables::{EMPTY, Rest, buffer_sizes, remaining};
+use cotama_printed::{Careful, Decider, at_rest};
 
 const STAGES: usize = ACTIVITIES.len();
 const CANDIDATES: usize = buffer_sizes(&ACTIVITIES).0;
@@ -166,6 +168,24 @@ pub extern "C" fn cotama_team(costs: &[[u32; 16]; 4], steps: u64, taken: &mut [u
         Some(cost)
     };
     solve().unwrap_or(u64::MAX)
+}
+
+/// Begins the delivery, and shows these flags in its second period; the fastest that the robot may
+/// go after so many, in mm/s.
+#[unsafe(no_mangle)]
+pub extern "C" fn cotama_level(raised: u64, works: u64, periods: u64) -> u64 {
+    let mut decider = Decider::new(at_rest(Careful::default()));
+    let mut speed = 0;
+    for number in 0..periods {
+        let now = Millis(number.saturating_mul(100));
+        let raised = if number == 1 { raised } else { 0 };
+        decider.perceive(now, Perceived { raised, lowered: 0, works });
+        let said = (number == 0).then_some(Told::Begins);
+        let drive = Drive { at_goal: false, stands: false };
+        let _ = decider.period(now, said, drive, &mut ());
+        speed = decider.requests(now).speed.0;
+    }
+    speed
 }
 
 /// Takes memory from the heap.
