@@ -1,9 +1,10 @@
 //! The whole decisional level of the delivery robot, as firmware links it: the decider, from flags
-//! to requests, the executive of the optimal path following, and an allocator on the tables of the
-//! mission. No heap, nothing left out but texts.
+//! to requests, on the supervisors that its file prints, the executive of a drive, and an allocator
+//! on the tables of the mission. No heap, nothing left out but texts.
 #![no_std]
 
 pub mod reach;
+pub mod walk;
 
 use cotama_core::allocation::{Allocator, Answer};
 use cotama_core::exact::{Exact, Item, Objective, Stage};
@@ -11,21 +12,18 @@ use cotama_core::executive::{Executive, Happening, Overruns, TaskSet};
 use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{Monitor, Request};
 use cotama_core::panorama::Panorama;
+use cotama_core::player::Firing;
 use cotama_core::problem::{Candidate, Problem};
 use cotama_core::units::{Micros, Millis};
-use cotama_models::cotama::Configuration::FollowingOptimal;
-use cotama_models::cotama::load::{self, Load, MOST, SPARE};
-use cotama_models::cotama::{
-    Body, Cause, Configuration, DecisionalLevel, DeliveryDecider, Finding, Health, Modules,
-    NoPlanLeft, Perceived, Plans, Requests, Told, Why, Word, delivery,
-};
+use cotama_models::level::{Cause, Drive, Perceived, Requests, Round, Rows, Told};
 use cotama_models::missions::tables::delivery::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
 use cotama_models::missions::tables::{EMPTY, Rest, buffer_sizes, remaining};
+use cotama_printed::{Careful, Decider, Level, at_rest, tasks};
 
-/// The tasks of the optimal path following: its modules, and the load of the computer.
-pub const TASKS: usize = FollowingOptimal.scheduled().len() + 1;
-/// Each activity of the mission is an objective.
-const OBJECTIVES: u32 = ACTIVITIES.len() as u32;
+/// The first configuration in which the robot drives.
+const DRIVES: usize = 1;
+/// The modules that run in it.
+pub const TASKS: usize = tasks::TASKS[DRIVES].len();
 const STAGES: usize = ACTIVITIES.len();
 const CANDIDATES: usize = buffer_sizes(&ACTIVITIES).0;
 /// The most steps that the exact allocator may take.
@@ -34,26 +32,17 @@ const STEPS: u64 = 10_000;
 /// All that the level remembers between two calls.
 #[derive(Clone, Copy)]
 pub struct Robot {
-    decider: DeliveryDecider,
+    decider: Decider<Careful>,
     executive: Executive<TASKS>,
     mission: Mission,
 }
 
-/// The plan, and how far the mission has come.
+/// The plan of the mission.
 #[derive(Clone, Copy)]
 pub struct Mission {
     monitor: Monitor<2>,
     plan: [u16; STAGES],
-    /// The activity under way, and what is left of it.
-    first: usize,
-    rest: Rest,
 }
-
-/// The configurations of a drive, in the order of its alternatives and of its hardware.
-const DRIVES: [Configuration; 4] = {
-    use Configuration as C;
-    [C::FollowingOptimal, C::FollowingDvz, C::FollowingOdometric, C::FollowingDegraded]
-};
 
 /// The memory of the caller's that planning needs while it goes on, by the rule and exactly; on the
 /// stack here.
@@ -64,52 +53,30 @@ pub const PLANNING_BYTES: [usize; 2] = {
     [problem + rule, problem + exact]
 };
 
-impl Plans for Mission {
-    fn is_over(&self) -> bool {
-        self.first >= STAGES
-    }
-
-    fn plan(&mut self, _: Why, available: Modules) -> Result<bool, NoPlanLeft> {
-        let have = DRIVES.iter().enumerate().filter(|(_, it)| it.runs_on(available));
-        let units = have.fold(Equipment::NONE, |all, (kind, _)| all.with(kind, 1).unwrap_or(all));
-        let (first, rest) = (self.first, self.rest);
-        if self.plan_by_rule(first, rest, units) { Ok(true) } else { Err(NoPlanLeft) }
-    }
-
-    fn configuration(&self) -> Option<Configuration> {
-        let left = ACTIVITIES.iter().zip(&self.plan).skip(self.first);
-        let drive = { left }.find(|it| it.0.x_start != it.0.x_end)?;
-        DRIVES.get(usize::from(*drive.1)).copied()
-    }
-
-    fn short(&self) -> Option<usize> {
-        None // the monitor says so, with the consumption: see `Robot::watch`
-    }
-}
-
 impl Robot {
-    /// At rest, with localisation by so many particles; `None` when they do not fit the processor.
-    pub fn new(load: Load) -> Option<Self> {
-        let mut tasks = [SPARE; MOST];
-        let particles = load::most_particles(FollowingOptimal, load, &mut tasks).ok()??;
-        let tasks = load::tasks(FollowingOptimal, load, particles, &mut tasks);
-        TaskSet::new(tasks).ok()?.schedulable(Overruns::None).ok()?;
+    /// At rest; `None` when the modules of a drive do not fit the processor.
+    pub fn new() -> Option<Self> {
+        let mut all = tasks::TASKS[DRIVES].iter().map(|it| it.1);
+        let mut tasks = [all.next()?; TASKS];
+        for (task, it) in tasks.iter_mut().skip(1).zip(all) {
+            *task = it;
+        }
+        TaskSet::new(&tasks).ok()?.schedulable(Overruns::None).ok()?;
         Some(Self {
-            decider: DeliveryDecider::start(delivery::Program, OBJECTIVES, None),
-            executive: Executive::new(tasks.try_into().ok()?).ok()?,
-            mission: Mission {
-                monitor: Monitor::new(LIMITS, ORDER).ok()?,
-                plan: [0; STAGES],
-                first: 0,
-                rest: Rest::Travel(ACTIVITIES[0].length()),
-            },
+            decider: Decider::new(at_rest(Careful::default())),
+            executive: Executive::new(tasks).ok()?,
+            mission: Mission { monitor: Monitor::new(LIMITS, ORDER).ok()?, plan: [0; STAGES] },
         })
     }
 
-    /// The same robot with its supervisors in this state, and with what is known to be broken.
-    #[must_use]
-    pub fn at(&self, level: DecisionalLevel, known: Health) -> Self {
-        Self { decider: DeliveryDecider::resume(level, OBJECTIVES, known), ..*self }
+    /// Begins anew with supervisors in this state.
+    pub fn restart(&mut self, level: Level<Careful>) {
+        self.decider.restart(level);
+    }
+
+    /// The decider, to be looked at.
+    pub fn decider(&self) -> &Decider<Careful> {
+        &self.decider
     }
 
     /// The task that has the processor.
@@ -118,21 +85,21 @@ impl Robot {
     }
 
     /// Observers tell what they see.
-    pub fn perceive(&mut self, now: Millis, seen: Perceived) -> Option<Finding> {
-        self.decider.perceive(now, seen, &mut self.mission)
+    pub fn perceive(&mut self, now: Millis, seen: Perceived) -> Rows {
+        self.decider.perceive(now, seen)
     }
 
-    /// A round of the decisional level, with everything that fires shown to a witness who counts.
-    pub fn round(
+    /// A period of the decisional level, with everything that fires shown to a witness who counts.
+    pub fn decide(
         &mut self,
         now: Millis,
-        said: Option<Word>,
-        body: Body,
+        said: Option<Told>,
+        drive: Drive,
         fired: &mut u32,
-    ) -> (Option<Told>, Requests) {
-        let mut count = |_: &delivery::Firing<'_, Cause>| *fired = fired.wrapping_add(1);
-        let round = self.decider.round(now, said, body, &mut count);
-        (round.told, self.decider.requests())
+    ) -> (Round, Requests) {
+        let mut count = |_: &Firing<'_, Careful, Cause>| *fired = fired.wrapping_add(1);
+        let round = self.decider.period(now, said, drive, &mut count);
+        (round, self.decider.requests(now))
     }
 
     /// The executive is told the time, or that a job is done, or that a fault was answered.

@@ -1,41 +1,24 @@
-//! Every state that the supervisors reach in rounds, in memory without heap.
+//! States that the supervisors reach in rounds, in memory without heap.
 
 use cotama_core::units::Millis;
-use cotama_models::cotama::{Cause, DecisionalLevel, Told, faults, global, local, operator};
+use cotama_models::level::{Cause, Told};
+use cotama_printed::{Careful, Level, TABLES, at_rest};
 
-/// Everything that the level can be told.
-pub const TOLD: [Told; 26] = [
-    Told::Mission(global::Event::mission_received),
-    Told::Mission(global::Event::object_received),
-    Told::Mission(global::Event::object_delivered),
-    Told::Mission(global::Event::stopped),
-    Told::Drive(local::Event::path_ready),
-    Told::Drive(local::Event::goal_reached),
-    Told::Failure(faults::Event::lose_vital),
-    Told::Failure(faults::Event::lose_wifi),
-    Told::Failure(faults::Event::lose_camera),
-    Told::Failure(faults::Event::lose_watch),
-    Told::Failure(faults::Event::lose_sonar),
-    Told::Failure(faults::Event::lose_avoidance),
-    Told::Failure(faults::Event::lose_smz),
-    Told::Failure(faults::Event::lose_mcl),
-    Told::Failure(faults::Event::drift),
-    Told::Failure(faults::Event::bump),
-    Told::Failure(faults::Event::no_path),
-    Told::Failure(faults::Event::fail_hard),
-    Told::Failure(faults::Event::fail_slightly),
-    Told::Failure(faults::Event::overload),
-    Told::Operator(operator::Event::teleprogram),
-    Told::Operator(operator::Event::teleoperate),
-    Told::Operator(operator::Event::waypoints),
-    Told::Operator(operator::Event::new_path),
-    Told::Operator(operator::Event::arrived),
-    Told::Operator(operator::Event::gives_up),
-];
+/// Iterates over everything that the supervisors can be told.
+pub fn all_told() -> impl Iterator<Item = Told> {
+    let single = [Told::Begins, Told::Stopped, Told::GivesUp].into_iter();
+    let steps = (0..TABLES.steps.len()).map(Told::Over);
+    let reports = (0..TABLES.reports.len()).map(Told::Report);
+    let losses = (0..TABLES.losses.len()).map(Told::Back);
+    let each = (0..TABLES.sub_objectives.len())
+        .flat_map(|it| [Told::Reached(it), Told::Chooses(it), Told::Done(it)]);
+    let all = single.chain(steps).chain(reports).chain(losses).chain(each);
+    all.filter(|it| TABLES.event(*it).is_some())
+}
 
 /// States, each once, found by a hash of their markings.
 pub struct Reached<'m> {
-    states: &'m mut [DecisionalLevel],
+    states: &'m mut [Level<Careful>],
     /// One more than the number of a state; zero where there is none. Open addressing.
     index: &'m mut [u32],
     count: usize,
@@ -43,7 +26,7 @@ pub struct Reached<'m> {
 
 impl<'m> Reached<'m> {
     /// With memory for so many states, and for at least twice as many numbers.
-    pub fn new(states: &'m mut [DecisionalLevel], index: &'m mut [u32]) -> Self {
+    pub fn new(states: &'m mut [Level<Careful>], index: &'m mut [u32]) -> Self {
         index.fill(0);
         Self { states, index, count: 0 }
     }
@@ -54,12 +37,12 @@ impl<'m> Reached<'m> {
     }
 
     /// The state of this number.
-    pub fn state(&self, number: usize) -> Option<DecisionalLevel> {
+    pub fn state(&self, number: usize) -> Option<Level<Careful>> {
         self.states.get(..self.count)?.get(number).copied()
     }
 
     /// Adds a state, unless it is there; false when there is no memory for it.
-    pub fn add(&mut self, state: &DecisionalLevel) -> bool {
+    pub fn add(&mut self, state: &Level<Careful>) -> bool {
         let words = state.player().marking();
         let hash = words.iter().fold(0, |hash: u64, word| {
             (hash ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29)
@@ -84,20 +67,21 @@ impl<'m> Reached<'m> {
         false
     }
 
-    /// Goes on from every state, as long as there is memory: a round, then nothing or one event
-    /// from outside. `round` and `tell` are who does it.
+    /// Goes on from every state that there is memory for, the nearest first: a round, then nothing
+    /// or one event from outside. `round` and `tell` are who does it. Returns whether there was
+    /// memory for all.
     pub fn explore(
         &mut self,
-        mut round: impl FnMut(&mut DecisionalLevel),
-        mut tell: impl FnMut(&mut DecisionalLevel, Told),
+        mut round: impl FnMut(&mut Level<Careful>),
+        mut tell: impl FnMut(&mut Level<Careful>, Told),
     ) -> bool {
-        let mut complete = self.add(&DecisionalLevel::default());
+        let mut complete = self.add(&at_rest(Careful::default()));
         let mut at = 0;
         while let Some(mut after) = self.state(at) {
             at += 1;
             round(&mut after);
             complete &= self.add(&after);
-            for told in TOLD {
+            for told in all_told() {
                 let mut next = after;
                 tell(&mut next, told);
                 complete &= self.add(&next);
@@ -108,11 +92,11 @@ impl<'m> Reached<'m> {
 }
 
 /// A round.
-pub fn round(level: &mut DecisionalLevel) {
-    let _ = level.round(Millis(0), &mut ());
+pub fn round(level: &mut Level<Careful>) {
+    level.round(Millis(0), &mut ());
 }
 
 /// An event.
-pub fn tell(level: &mut DecisionalLevel, told: Told) {
+pub fn tell(level: &mut Level<Careful>, told: Told) {
     let _ = level.tell(Millis(0), told, Cause(0), &mut ());
 }

@@ -12,9 +12,9 @@ use cotama_core::team::winners::{
 };
 use cotama_core::team::{AssignmentError, Bottleneck, Costs, Fixed, Team, assign, bottleneck};
 use cotama_core::units::{Micros, Millis};
-use cotama_models::cotama::load::Load;
-use cotama_models::cotama::{Body, DecisionalLevel, Finding, Perceived, Requests, Told, Word};
+use cotama_models::level::{Drive, Perceived, Requests, Round, Rows, Told};
 use cotama_models::missions::tables::Rest;
+use cotama_printed::{Careful, Level as Supervisors};
 use decisional_level::Robot;
 
 // `no_mangle` counts as unsafe because two equal names would meet at link time: these begin with
@@ -32,19 +32,19 @@ macro_rules! entries {
 
 entries! {
     /// At rest.
-    robot_new(load: Load) -> Option<Robot> = Robot::new(load);
+    robot_new() -> Option<Robot> = Robot::new();
     /// An event from outside.
-    robot_tell(level: &mut DecisionalLevel, told: Told) =
+    robot_tell(level: &mut Supervisors<Careful>, told: Told) =
         decisional_level::reach::tell(level, told);
     /// A round.
-    robot_round(level: &mut DecisionalLevel) = decisional_level::reach::round(level);
-    /// Flags: diagnosed, judged, planned around, queued to be told.
-    robot_perceive(robot: &mut Robot, now: Millis, seen: Perceived) -> Option<Finding> =
+    robot_round(level: &mut Supervisors<Careful>) = decisional_level::reach::round(level);
+    /// Flags: diagnosed, and what they are taken for waits to be told.
+    robot_perceive(robot: &mut Robot, now: Millis, seen: Perceived) -> Rows =
         robot.perceive(now, seen);
-    /// A round of all of it, with everything that fires shown to a witness.
+    /// A period, with everything that fires shown to a witness, and its requests.
     robot_decide(
-        robot: &mut Robot, now: Millis, said: Option<Word>, body: Body, fired: &mut u32
-    ) -> (Option<Told>, Requests) = robot.round(now, said, body, fired);
+        robot: &mut Robot, now: Millis, said: Option<Told>, drive: Drive, fired: &mut u32
+    ) -> (Round, Requests) = robot.decide(now, said, drive, fired);
     /// Time, a job that is done, a fault that was answered.
     robot_schedule(
         robot: &mut Robot, now: Micros, done: Option<usize>, answered: Option<usize>

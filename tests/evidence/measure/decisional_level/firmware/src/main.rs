@@ -1,6 +1,7 @@
 //! Does everything that the level can do, between marks at which an emulator counts instructions. A
 //! line `batch NAME COUNT` is printed for each row of regions; that of the exploration, for each
-//! state: a round, then each event.
+//! state: a round, then each event; that of missions by dice, for each period: the observers, then
+//! the period.
 #![no_std]
 #![no_main]
 
@@ -13,13 +14,12 @@ use cotama_core::hardware::Equipment;
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::Problem;
 use cotama_core::units::{Micros, Millimetres, Millis};
-use cotama_models::cotama::load::Load;
-use cotama_models::cotama::{
-    Body, DecisionalLevel, FailureMode, Losses, Modules, Perceived, Situation,
-};
+use cotama_models::level::Perceived;
 use cotama_models::missions::tables::delivery::ACTIVITIES;
 use cotama_models::missions::tables::{EMPTY, Rest, buffer_sizes, patrol, remaining};
-use decisional_level::reach::{Reached, TOLD};
+use cotama_printed::{Careful, Level, TABLES, at_rest};
+use decisional_level::reach::{Reached, all_told};
+use decisional_level::walk::{Period, Walk};
 use decisional_level::{PLANNING_BYTES, Robot, TASKS};
 use entries::{
     robot_decide, robot_perceive, robot_plan_by_rule, robot_plan_exactly, robot_round,
@@ -27,9 +27,11 @@ use entries::{
 };
 use semihosting::println;
 
-const STATES: usize = 112 * 1024;
-/// The situations of the supervisors of a drive, at most.
-const SITUATIONS: usize = 32;
+/// The states that there is memory for: the supervisors reach more.
+const STATES: usize = 48 * 1024;
+/// The periods of missions by dice, and of each of them.
+const PERIODS: u64 = 20_000;
+const MISSION: u64 = 64;
 
 /// The emulator looks for this function by its name.
 // `no_mangle` counts as unsafe because two equal names would meet at link time: no other
@@ -56,78 +58,70 @@ fn main() -> ! {
     println!("batch empty 1");
     plan_patrol();
 
-    let mut states = [DecisionalLevel::default(); STATES];
+    let mut states = [at_rest(Careful::default()); STATES];
     let mut index = [0_u32; 2 * STATES];
     let mut reached = Reached::new(&mut states, &mut index);
-    let complete = reached.explore(
+    let _ = reached.explore(
         |level| counted!(robot_round(black_box(level))),
         |level, told| counted!(robot_tell(level, black_box(told))),
     );
-    assert!(complete, "more than {STATES} states");
-    println!("batch explore {}", reached.count() * (1 + TOLD.len()));
+    println!("batch explore {}", reached.count() * (1 + all_told().count()));
     println!("states {}", reached.count());
-    for (number, told) in TOLD.iter().enumerate() {
+    for (number, told) in all_told().enumerate() {
         println!("event {number} {told:?}");
     }
 
-    let Some(robot) = Robot::new(black_box(Load::Busy)) else { panic!("the modules do not fit") };
-    let (situations, count) = situations(&reached);
-    // Each row of the FMECA shows in each situation with each set of losses, and is told.
-    let each = |act: &mut dyn FnMut(&mut Robot, Perceived)| {
-        let mut regions = 0;
-        for &level in &situations[..count] {
-            for lost in (0..=Losses::ALL.bits()).filter_map(Losses::from_bits) {
-                for &mode in FailureMode::ALL {
-                    let raised = mode.rule().signature.always;
-                    let seen = Perceived { raised, ..Perceived::nothing(Modules::ALL) };
-                    act(&mut robot.at(level, lost.health()), black_box(seen));
-                    regions += 1;
-                }
-            }
-        }
-        regions
-    };
-    let perceived = each(&mut |robot, seen| {
-        counted!(robot_perceive(robot, Millis(100), seen));
-    });
-    println!("batch perceive {perceived}");
-    let decided = each(&mut |robot, seen| {
-        let body = Body { at_goal: false, stands: false };
-        let _ = robot_perceive(robot, Millis(100), seen);
-        counted!(robot_decide(robot, Millis(100), None, body, &mut 0));
-    });
-    println!("batch decide {decided}");
-    println!("situations {count}");
+    let Some(robot) = Robot::new() else { panic!("the modules do not fit") };
+    perceive(&robot);
+    walk(&robot);
     schedule(&robot);
     plan(&robot);
     println!("bytes robot {}", size_of::<Robot>());
-    println!("bytes supervisors {}", size_of::<DecisionalLevel>());
+    println!("bytes supervisors {}", size_of::<Level<Careful>>());
     println!("bytes executive {}", size_of::<Executive<TASKS>>());
     println!("bytes rule {}", PLANNING_BYTES[0]);
     println!("bytes exact {}", PLANNING_BYTES[1]);
     semihosting::process::exit(0)
 }
 
-/// A reachable level for each situation of the supervisors of a drive.
-fn situations(reached: &Reached<'_>) -> ([DecisionalLevel; SITUATIONS], usize) {
-    let mut found = [(Situation::AT_REST, DecisionalLevel::default()); SITUATIONS];
-    let mut count = 0;
-    for number in 0..reached.count() {
-        let Some(level) = reached.state(number) else { break };
-        let situation = level.situation(Losses::NONE);
-        if found[..count].iter().all(|it| it.0 != situation) {
-            found[count] = (situation, level);
-            count += 1;
+/// All flags of each failure and of each two are raised at once, and all flags that there are.
+fn perceive(robot: &Robot) {
+    let mut regions = 0;
+    let mut raise = |raised| {
+        let seen = Perceived { raised, works: u64::MAX, ..Perceived::default() };
+        let mut robot = *robot;
+        counted!(robot_perceive(&mut robot, Millis(100), black_box(seen)));
+        regions += 1;
+    };
+    for (number, one) in TABLES.failures.iter().enumerate() {
+        for other in &TABLES.failures[number..] {
+            raise(one.flags | other.flags);
         }
     }
-    (found.map(|it| it.1), count)
+    raise(TABLES.failures.iter().fold(0, |all, it| all | it.flags));
+    println!("batch perceive {regions}");
+}
+
+/// Missions by dice: observers, then a period, each time.
+fn walk(robot: &Robot) {
+    let (mut robot, mut dice) = (*robot, Walk::new(1));
+    for number in 0..PERIODS {
+        if number % MISSION == 0 {
+            robot.restart(at_rest(Careful::default()));
+        }
+        let now = Millis(1_000 * (1 + number % MISSION));
+        let Period { seen, said, drive } = dice.next(robot.decider());
+        counted!(robot_perceive(&mut robot, now, black_box(seen)));
+        counted!(robot_decide(&mut robot, now, said, black_box(drive), &mut 0));
+    }
+    println!("batch walk {}", 2 * PERIODS);
 }
 
 /// Ten seconds of the control loop: every job is done after half of its budget, or hangs.
 fn schedule(robot: &Robot) {
     let mut regions = 0;
     for hangs in [false, true] {
-        let mut robot = robot.at(DecisionalLevel::default(), Losses::NONE.health());
+        let mut robot = *robot;
         for now in (0..10_000_000).step_by(500).map(Micros) {
             while counted!(robot_schedule(&mut robot, black_box(now), None, None)).is_some() {
                 regions += 1;
@@ -155,7 +149,7 @@ fn plan(robot: &Robot) {
                 let have = (0..11).filter(|kind| kinds >> kind & 1 == 1);
                 let units =
                     have.fold(Equipment::NONE, |units, kind| units.with(kind, 1).unwrap_or(units));
-                let mut robot = robot.at(DecisionalLevel::default(), Losses::NONE.health());
+                let mut robot = *robot;
                 counted!(plans(&mut robot, first, black_box(rest), black_box(units)));
             }
         }
