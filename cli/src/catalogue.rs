@@ -2,12 +2,11 @@
 
 use cotama_core::net::{Known, Net};
 use cotama_core::system::System;
-use cotama_models::cotama::{
-    RECOVERY_REQUIREMENTS, REPLACED, REQUIREMENTS, Requirement, contextual, delivery, faults,
-    global, local, observation, operator, path_following, permit, recovering, recovery,
+use cotama_models::nets::ace::robot;
+use cotama_models::nets::by_hand::{
+    contextual, delivery, faults, global, local, observation, operator, path_following, permit,
     teleoperation,
 };
-use cotama_models::nets::ace::robot;
 use cotama_models::nets::families::Family;
 use cotama_models::nets::{self, Model};
 
@@ -49,7 +48,7 @@ impl Entry {
     }
 }
 
-static SYSTEMS: [System<'static>; 3] = [robot::SYSTEM, delivery::SYSTEM, recovering::SYSTEM];
+static SYSTEMS: [System<'static>; 2] = [robot::SYSTEM, delivery::SYSTEM];
 
 /// All of them, in the order in which they are listed.
 pub(crate) fn entries() -> Vec<Entry> {
@@ -61,7 +60,7 @@ pub(crate) fn entries() -> Vec<Entry> {
             Model::Family(family) => Kind::Family(family),
         },
     });
-    let supervisors: [(&'static Net<'static>, Known); 10] = [
+    let supervisors: [(&'static Net<'static>, Known); 9] = [
         (&global::NET, global::KNOWN),
         (&local::NET, local::KNOWN),
         (&path_following::NET, path_following::KNOWN),
@@ -71,7 +70,6 @@ pub(crate) fn entries() -> Vec<Entry> {
         (&observation::NET, observation::KNOWN),
         (&faults::NET, faults::KNOWN),
         (&operator::NET, operator::KNOWN),
-        (&recovery::NET, recovery::KNOWN),
     ];
     let supervisors = supervisors.map(|(net, known)| Entry {
         name: net.name,
@@ -86,22 +84,12 @@ pub(crate) fn entries() -> Vec<Entry> {
     shipped.chain(supervisors).chain(systems).collect()
 }
 
-/// The decisional level of the boards: `delivery` itself is the mission, whose supervisors its
-/// robot's file makes.
+/// The supervisors that are written by hand: `delivery` itself is the mission, whose supervisors
+/// its robot's file makes.
 const BY_HAND: &str = "delivery_by_hand";
 
 fn system_name(system: &System<'static>) -> &'static str {
     if system.name == delivery::SYSTEM.name { BY_HAND } else { system.name }
-}
-
-/// Returns the requirements of the system of this name.
-pub(crate) fn requirements(name: &str) -> Vec<&'static Requirement> {
-    let kept = || REQUIREMENTS.iter().filter(|it| !REPLACED.contains(&it.id));
-    match name {
-        _ if name == BY_HAND => REQUIREMENTS.iter().collect(),
-        _ if name == recovering::SYSTEM.name => kept().chain(RECOVERY_REQUIREMENTS).collect(),
-        _ => Vec::new(),
-    }
 }
 
 /// The model of this name.

@@ -11,12 +11,10 @@ mod uri;
 mod watch;
 
 use crate::answers::check::{
-    Amount, CheckAnswer, EvidenceName, Infinite, Interrupted, OtherwiseRow, ResponseRow, ResultRow,
-    VerdictName,
+    Amount, CheckAnswer, EvidenceName, Infinite, Interrupted, ResponseRow, ResultRow, VerdictName,
 };
 use crate::args::{CheckArgs, EngineName};
 use crate::budget::Budget;
-use crate::catalogue::{self, Entry, Kind};
 use crate::exit::{Exit, Failure};
 use crate::last_word::LastWord;
 use crate::model;
@@ -96,7 +94,6 @@ fn once(args: &CheckArgs, screen: &Screen, last_word: &LastWord) -> Result<Exit,
         // Whoever reads it before all is answered is told so.
         interrupted: Some(Interrupted { asked: asked.properties.len() }),
         results: Vec::new(),
-        otherwise: otherwise(&asked, &subject.name),
     });
     // A person sees each verdict when it is known.
     let shows = !args.json.json && !args.mcc;
@@ -197,25 +194,6 @@ fn once(args: &CheckArgs, screen: &Screen, last_word: &LastWord) -> Result<Exit,
         screen.print(&render::check::reasons(&answer, &texts, screen.width()))?;
     }
     Ok(ended(&answer.results))
-}
-
-/// Returns the requirements known without a checker. The outputs that transitions must emit are
-/// looked up in the nets.
-fn otherwise(asked: &questions::Asked, model: &str) -> Vec<OtherwiseRow> {
-    let entry = catalogue::entry(model).filter(|_| !asked.requirements.is_empty());
-    let Some(Entry { kind: Kind::System(system), .. }) = entry else { return Vec::new() };
-    let rows = catalogue::requirements(model).into_iter().flat_map(|it| {
-        let unsaid: Vec<_> = it.said.iter().flat_map(|said| said.unsaid(system)).collect();
-        let said = match (it.said.len(), unsaid.as_slice()) {
-            (0, _) => None,
-            (_, []) => Some("each transition that must says so".to_owned()),
-            (_, unsaid) => Some(format!("not said by {}", unsaid.join(", "))),
-        };
-        let tests = it.tests.map(|file| format!("tests, {file}"));
-        let row = |how| OtherwiseRow { id: it.id, sentence: it.sentence, how };
-        said.into_iter().chain(tests).map(row).collect::<Vec<_>>()
-    });
-    rows.collect()
 }
 
 fn engine(name: EngineName) -> Result<Choice, Failure> {

@@ -4,7 +4,6 @@ mod diagnosability;
 mod glossary;
 mod markdown;
 mod matrix;
-mod names;
 mod page;
 mod rows;
 
@@ -24,6 +23,9 @@ use cotama_models::robots::{self, Robot};
 use cotama_pages::causes;
 use std::path::Path;
 
+/// The robot whose rows are shown where no file is named.
+const DEFAULT: &str = "p3dx-delivery";
+
 /// Shows the analysis, or writes it in a format.
 pub(crate) fn fmeca(args: &FmecaArgs, screen: &Screen) -> Result<Exit, Failure> {
     args.output.as_deref().map_or(Ok(()), output::place)?;
@@ -32,9 +34,9 @@ pub(crate) fn fmeca(args: &FmecaArgs, screen: &Screen) -> Result<Exit, Failure> 
         (None, Some(output)) => Some(by_name(output)?),
         (None, None) => None,
     };
-    let analysis = args.file.as_deref().map_or_else(|| Ok(Analysis::of_the_robot()), named)?;
+    let (analysis, robot) = named(args.file.as_deref().unwrap_or(DEFAULT))?;
     let function = args.function.as_deref().map(|it| known(&analysis, it)).transpose()?;
-    let answer = || rows::answer(&analysis, args.file.is_none());
+    let answer = || rows::answer(&analysis, robot.as_ref());
     let Some(format) = format else {
         return shown(args, &answer(), screen);
     };
@@ -45,7 +47,7 @@ pub(crate) fn fmeca(args: &FmecaArgs, screen: &Screen) -> Result<Exit, Failure> 
         (FmecaFormat::Csv, None) => analysis.to_csv(),
         (FmecaFormat::Md, None) => markdown::write(&answer()),
         (FmecaFormat::Toml, None) => analysis.to_rows(),
-        (FmecaFormat::Html, None) => page::write(&analysis, &answer()),
+        (FmecaFormat::Html, None) => page::write(&analysis, robot.as_ref(), &answer()),
     };
     match &args.output {
         None => Screen::raw(text.as_bytes())?,
@@ -57,8 +59,8 @@ pub(crate) fn fmeca(args: &FmecaArgs, screen: &Screen) -> Result<Exit, Failure> 
     Ok(Exit::Success)
 }
 
-/// The analysis in a file.
-fn read(path: &str) -> Result<Analysis, Failure> {
+/// The analysis in a file, and the robot whose it is.
+fn read(path: &str) -> Result<(Analysis, Option<Robot>), Failure> {
     let end = Path::new(path).extension().map(|it| it.to_string_lossy().to_lowercase());
     let parse = match end.as_deref() {
         Some("toml") => Analysis::parse,
@@ -71,24 +73,25 @@ fn read(path: &str) -> Result<Analysis, Failure> {
     };
     let text = kind::text(path, "an FMECA", input::FMECA_BYTES, &[Kind::Fmeca, Kind::Robot])?;
     if kind::is_of(&text, Kind::Robot) {
-        return of_robot(path, robot::robot_file(path, &text)?.robot());
+        return of_robot(path, robot::robot_file(path, &text)?.robot().clone());
     }
-    Ok(parse(path, &text)?)
+    Ok((parse(path, &text)?, None))
 }
 
 /// The analysis of a robot that comes with the program, or of a file.
-fn named(name: &str) -> Result<Analysis, Failure> {
+fn named(name: &str) -> Result<(Analysis, Option<Robot>), Failure> {
     match robots::embedded(name) {
-        Some(it) => of_robot(name, &Robot::parse(it.name, it.text)?),
+        Some(it) => of_robot(name, Robot::parse(it.name, it.text)?),
         None => read(name),
     }
 }
 
-fn of_robot(name: &str, robot: &Robot) -> Result<Analysis, Failure> {
-    Analysis::try_from(robot).map_err(|lacking| {
+fn of_robot(name: &str, robot: Robot) -> Result<(Analysis, Option<Robot>), Failure> {
+    let analysis = Analysis::try_from(&robot).map_err(|lacking| {
         Failure::of(name, lacking.to_string())
             .help("say how many hours pass between two failures on average, in `[[failure]]`")
-    })
+    })?;
+    Ok((analysis, Some(robot)))
 }
 
 fn shown(args: &FmecaArgs, answer: &FmecaAnswer<'_>, screen: &Screen) -> Result<Exit, Failure> {

@@ -5,8 +5,7 @@ use crate::exit::Failure;
 use crate::model::{self, Found};
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::system::System;
-use cotama_models::cotama::Watch;
-use cotama_models::robots::requirements::{Requirement as RobotRequirement, Watch as RobotWatch};
+use cotama_models::robots::requirements::{Requirement as RobotRequirement, Watch};
 use cotama_models::team::protocol::Requirement;
 use cotama_verification::check::Model;
 use cotama_verification::flat::{self, FlatError, Looks, Rounds, flat};
@@ -209,32 +208,14 @@ impl Subject {
         self
     }
 
-    /// The same system in rounds, with what it takes to remember; nothing of other models.
-    pub(crate) fn watched(&self, watches: &[Watch]) -> Result<Option<Self>, FlatError> {
-        self.watching(|rounds| {
-            watches.iter().try_for_each(|it| {
-                let looks = if it.at_end { Looks::AtEnd } else { Looks::BeforeOutside };
-                rounds.watch(it.name, looks, (it.begins, it.ends), it.most)
-            })
-        })
-    }
-
-    /// The same system in rounds, with the observers of a requirement of its robot.
-    pub(crate) fn watched_by(&self, watches: &[RobotWatch]) -> Result<Option<Self>, FlatError> {
-        self.watching(|rounds| {
-            watches.iter().try_for_each(|it| {
-                let looks = if it.at_end { Looks::AtEnd } else { Looks::BeforeOutside };
-                rounds.watch(&it.name, looks, (&it.begins, &it.ends), it.most)
-            })
-        })
-    }
-
-    fn watching(
-        &self,
-        add: impl FnOnce(&mut Rounds) -> Result<(), FlatError>,
-    ) -> Result<Option<Self>, FlatError> {
+    /// The same system in rounds, with the observers of a requirement of its robot; nothing of
+    /// other models.
+    pub(crate) fn watched_by(&self, watches: &[Watch]) -> Result<Option<Self>, FlatError> {
         let Some(mut rounds) = self.rounds.clone() else { return Ok(None) };
-        add(&mut rounds)?;
+        for it in watches {
+            let looks = if it.at_end { Looks::AtEnd } else { Looks::BeforeOutside };
+            rounds.watch(&it.name, looks, (&it.begins, &it.ends), it.most)?;
+        }
         let net = rounds.net()?;
         let subject = Self::new(&self.name, Model::from(&net.view().net()), Some(net));
         Ok(Some(Self { semantics: self.semantics, rounds: Some(rounds), ..subject }))

@@ -47,7 +47,7 @@ fn every_format_is_written_by_its_name_and_by_the_end_of_the_files_name() {
 #[test]
 fn the_values_separated_by_commas_are_those_of_the_models() {
     let printed = Folder::new("fmeca_csv").cotama(&["fmeca", "--format", "csv"]).stdout;
-    assert_eq!(printed, cotama_models::fmeca::Analysis::of_the_robot().to_csv());
+    assert_eq!(printed, cotama_models::fmeca::Analysis::shipped("p3dx-delivery").unwrap().to_csv());
 }
 
 #[test]

@@ -8,14 +8,14 @@
 //! and reports every error at once; what it returns is complete, so that nothing after it can fail
 //! on the mission's account.
 //!
-//! The crate has three more rooms. [`nets`] are ready supervisors, checked while compiling, and
-//! families of nets. [`cotama`] is COTAMA's decisional level: its supervisors, the modules that
-//! they switch, what can fail and how it is seen, and the requirements. `fmeca` (feature `std`)
-//! reads such an analysis of any robot from a file, and says how critical each row is.
+//! The crate has more rooms. [`nets`] are ready supervisors, checked while compiling, and families
+//! of nets. `robots` (feature `std`) reads a robot from a file and makes its supervisors and their
+//! requirements; [`level`] is what they need at work, from flags to requests. `fmeca` (feature
+//! `std`) reads an analysis of failures from a file, and says how critical each row is.
 //!
 //! [`team`] is what robots can do together: capabilities, tasks, bids, errors.
 //!
-//! Without the feature `std` only [`cotama`], [`team`], the tables of missions
+//! Without the feature `std` only [`level`], [`team`], the tables of missions
 //! ([`missions::tables`]) and the ready [`nets`] remain, without heap, for firmware.
 //!
 //! ```
@@ -35,7 +35,6 @@
 // Printed tables name this crate, wherever they are compiled; two of them are compiled here.
 extern crate self as cotama_models;
 
-pub mod cotama;
 #[cfg(feature = "std")]
 pub mod fmeca;
 #[cfg(feature = "std")]

@@ -1,6 +1,7 @@
 //! Values that stand in files by their names.
 
-use cotama_models::cotama::{Class, Mode, Severity};
+use crate::trace::supervised::Autonomy;
+use cotama_models::severity::{Class, Severity};
 use cotama_models::team::ErrorClass;
 use cotama_models::team::scenario::{Row, Stage};
 use serde::{Deserialize, Deserializer, Serializer, de::Error};
@@ -35,7 +36,7 @@ macro_rules! named {
 named! {
     Class: "class of decisions";
     ErrorClass: "class of errors";
-    Mode: "autonomy mode";
+    Autonomy: "autonomy mode";
     Severity: "severity";
     Stage: "stage of a robot";
 }

@@ -7,9 +7,9 @@
 
 mod rung;
 
-use crate::trace::supervised::{Configured, Decision, Diagnosis, Failure, Fired, Told};
+use crate::trace::supervised::{Autonomy, Configured, Decision, Diagnosis, Failure, Fired, Told};
 use crate::trace::{Plan, Record};
-use cotama_models::cotama::{Class, Mode};
+use cotama_models::severity::Class;
 pub use rung::Rung;
 use std::collections::HashMap;
 
@@ -176,8 +176,8 @@ impl<'t> Story<'t> {
             }
             Record::Configuration(it) => {
                 match (&it.configuration, it.mode) {
-                    (Some(_), Mode::Autonomous) => self.alone_again(),
-                    (None, Mode::Autonomous) => self.belongs(),
+                    (Some(_), Autonomy::Autonomous) => self.alone_again(),
+                    (None, Autonomy::Autonomous) => self.belongs(),
                     _ => {}
                 }
                 self.configurations.push(it);
@@ -315,7 +315,7 @@ impl Point<'_> {
     pub fn done(&self) -> Option<String> {
         let runs = self.configured.map(|it| match (&it.configuration, it.mode) {
             (Some(configuration), mode) => format!("{configuration} runs, {}", mode.name()),
-            (None, Mode::HandOver) => "it stops and asks".into(),
+            (None, Autonomy::HandOver) => "it stops and asks".into(),
             (None, _) => "nothing runs any more".into(),
         });
         let Some(chain) = self.chain() else { return runs };

@@ -7,22 +7,22 @@ use cotama_core::player::{
 use cotama_core::system::{Component, Of, System, SystemError};
 use cotama_core::units::Millis;
 use cotama_core::{net, system};
-use cotama_models::cotama::{Cause, DecisionalLevel, Told, delivery, global};
+use cotama_models::nets::by_hand::{delivery, global};
 
 /// No supervisor of the level has an interval, and yet it knows the time.
 #[test]
 fn the_decisional_level_reports_firings_when_they_happen() {
-    let (mut level, mut at) = (DecisionalLevel::default(), Vec::new());
-    let mut note = |it: &Firing<'_, delivery::Program, Cause>| at.push(it.at);
-    let mission = Told::Mission(global::Event::mission_received);
-    let told = level.tell(Millis(5_000), mission, Cause(1), &mut note);
+    let (mut level, mut at) = (delivery::Player::new(), Vec::new());
+    let mut note = |it: &delivery::Firing<'_>| at.push(it.at);
+    let mission = delivery::Event::gs(global::Event::mission_received);
+    let told = level.offer_with(Millis(5_000), &mission, &mut note);
     let Outcome::Fired { settled, .. } = told else { panic!("{told:?}") };
-    let round = level.round(Millis(5_100), &mut note);
+    let round = level.round_with(Millis(5_100), &mut note);
     assert!(round.fired > 0, "{round:?}");
     let (first, then) = at.split_at(1 + settled as usize);
     assert!(first.iter().all(|&it| it == Millis(5_000)), "{first:?}");
     assert!(!then.is_empty() && then.iter().all(|&it| it == Millis(5_100)), "{then:?}");
-    assert_eq!(level.player().now(), Millis(5_100));
+    assert_eq!(level.now(), Millis(5_100));
 }
 
 net! {

@@ -27,9 +27,6 @@ pub(crate) struct CheckAnswer {
     pub(crate) interrupted: Option<Interrupted>,
     /// An answer to each property, in their order.
     pub(crate) results: Vec<ResultRow>,
-    /// Requirements of a system that are known by other means.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub(crate) otherwise: Vec<OtherwiseRow>,
 }
 
 /// A check that was interrupted.
@@ -37,15 +34,6 @@ pub(crate) struct CheckAnswer {
 pub(crate) struct Interrupted {
     /// How many properties were asked in all.
     pub(crate) asked: usize,
-}
-
-/// A requirement, or a part of one, that is no question to a checker.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
-pub(crate) struct OtherwiseRow {
-    pub(crate) id: &'static str,
-    pub(crate) sentence: &'static str,
-    /// How it is known: that each transition which must says it, or the file of the tests.
-    pub(crate) how: String,
 }
 
 /// The answer to a property.

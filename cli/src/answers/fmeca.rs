@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The failure modes of an analysis, what reacts to them, how critical they are, and which of them
-/// look alike. Without a file it is that of the delivery robot.
+/// look alike. Without a file it is that of the robot `p3dx-delivery`.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct FmecaAnswer<'a> {
     #[schemars(extend("const" = "cotama/fmeca/1"))]
@@ -13,9 +13,6 @@ pub(crate) struct FmecaAnswer<'a> {
     pub(crate) title: &'a str,
     /// The time of operation for which occurrence classes count failures, in hours.
     pub(crate) period_h: u32,
-    /// Whether it is the robot's, whose words say more than those of a file.
-    #[serde(skip)]
-    pub(crate) is_robot: bool,
     pub(crate) counts: CountsRow,
     /// One row a failure mode.
     pub(crate) rows: Vec<FmecaRow<'a>>,
@@ -32,8 +29,7 @@ pub(crate) struct CountsRow {
     pub(crate) functions: usize,
     /// Rows that always raise a flag.
     pub(crate) detected: usize,
-    /// Detectable failure modes that are reported to the contextual supervisor, of the delivery
-    /// robot.
+    /// Detectable failure modes of a robot that are reported to the contextual supervisor.
     pub(crate) reported: usize,
     /// Detectable failure modes that are not reported, with a reaction of their own.
     pub(crate) recorded: usize,
@@ -57,19 +53,16 @@ pub(crate) struct FmecaRow<'a> {
     pub(crate) severity_autonomous: &'a str,
     /// While the operator drives; null if the file makes no difference.
     pub(crate) severity_operator: Option<&'a str>,
-    /// Receiver of its event while the robot drives itself; of the delivery robot: `adapter`,
+    /// Receiver of its event while the robot drives itself; of a robot: `adapter`,
     /// `local` or `global`.
     pub(crate) class: &'a str,
     /// `permanent`, `transient` or `intermittent`; null if the file does not say.
     pub(crate) persistence: Option<&'a str>,
     /// Functions lost with it, in words.
     pub(crate) loss: &'a str,
-    /// Modules that are faulty with it; this and what else is about modules is of the delivery
-    /// robot only.
+    /// Modules that are faulty with it; this and what else is about modules is of robots only.
     pub(crate) modules_faulty: Vec<&'a str>,
-    /// Whether it is a fault of one module, whichever it is.
-    pub(crate) any_one_module: bool,
-    /// Hardware, and the map, that is lost with it.
+    /// Hardware that is lost with it.
     pub(crate) resources_lost: Vec<&'a str>,
     /// Modules that are unavailable after it, those that need faulty or lost ones among them.
     pub(crate) modules_unavailable: Vec<&'a str>,
@@ -82,13 +75,9 @@ pub(crate) struct FmecaRow<'a> {
     pub(crate) flags_always: Vec<&'a str>,
     /// Flags that it may raise too.
     pub(crate) flags_sometimes: Vec<&'a str>,
-    /// Modules that have to be available for the failure to happen, or to matter.
-    pub(crate) only_with_modules: Vec<&'a str>,
-    /// Modules that have to be unavailable for the failure to happen.
-    pub(crate) only_without_modules: Vec<&'a str>,
     /// Why nothing sees it; null if something does, or no reason is stated.
     pub(crate) undetectable_reason: Option<&'a str>,
-    /// The report to the contextual supervisor; null if it is recorded only.
+    /// The report to the contextual supervisor; null where nothing sees it, or of a file.
     pub(crate) report: Option<&'a str>,
     pub(crate) reaction: &'a str,
     /// The mean time between failures, in thousandths of an hour.
@@ -149,17 +138,14 @@ pub(crate) struct Diagnosability<'a> {
     pub(crate) statuses: Vec<StatusRow<'a>>,
     /// Observations that the architecture does not make.
     pub(crate) probes: Vec<ProbeRow<'a>>,
-    /// Ambiguous case of the failure mode; of the delivery robot only.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) ambiguous_case: Option<AmbiguousCase<'a>>,
 }
 
 /// The diagnosability in one status of the robot.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub(crate) struct StatusRow<'a> {
     /// As `sonar lost`; of a file there is one, `sound`.
-    pub(crate) status: &'a str,
-    /// The resource that is lost.
+    pub(crate) status: String,
+    /// The loss.
     pub(crate) lost: Option<&'a str>,
     pub(crate) modules_unavailable: Vec<&'a str>,
     /// How many failure modes can happen and always raise a flag.
@@ -219,22 +205,4 @@ pub(crate) struct ProbeRow<'a> {
     pub(crate) doc: &'a str,
     /// The failure modes that it would show.
     pub(crate) shows: Vec<&'a str>,
-    /// The modules without which it would see nothing.
-    pub(crate) needs: Vec<&'a str>,
-}
-
-/// Point 3 of the published run.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
-pub(crate) struct AmbiguousCase<'a> {
-    pub(crate) flags: Vec<&'a str>,
-    pub(crate) candidates: Vec<&'a str>,
-    pub(crate) modules_suspect: Vec<&'a str>,
-    /// The class of the decision while a path is followed.
-    pub(crate) decision: &'a str,
-    /// The same when the operator cannot be reached.
-    pub(crate) decision_without_operator: &'a str,
-    /// The probes of the least set that would settle it.
-    pub(crate) probes: Vec<&'a str>,
-    /// The case in words, one paragraph each.
-    pub(crate) text: Vec<String>,
 }

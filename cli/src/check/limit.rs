@@ -88,7 +88,6 @@ pub(super) fn told(args: &CheckArgs, limit: &Limit, screen: &Screen) -> Result<E
         left_out: Vec::new(),
         interrupted: None,
         results,
-        otherwise: Vec::new(),
     };
     for (file, text) in [(&args.junit, junit::text(&answer)), (&args.sarif, sarif::text(&answer))] {
         if let Some(path) = file {

@@ -1,7 +1,6 @@
 //! The questions: properties from the command line, from a file, or the laws of the model.
 
 use crate::args::CheckArgs;
-use crate::catalogue;
 use crate::exit::Failure;
 use crate::file_errors::{FileError, FileErrors, Mark};
 use crate::input;
@@ -11,7 +10,6 @@ use crate::render::visible;
 use crate::subject::Subject;
 use cotama_core::net::PlaceId;
 use cotama_core::net::owned::OwnedNet;
-use cotama_models::cotama::Requirement;
 use cotama_verification::pnml::Location;
 use cotama_verification::property::{self, Atom, Formula, Property, PropertyError, Question, mcc};
 use cotama_verification::pt::Pt;
@@ -60,10 +58,6 @@ pub(super) fn asked(args: &CheckArgs, subject: &Subject) -> Result<Asked, Failur
     if subject.rounds.is_some() && !subject.required.is_empty() {
         return self::required(subject);
     }
-    let required = catalogue::requirements(&subject.name);
-    if subject.rounds.is_some() && !required.is_empty() {
-        return requirements(&required, subject);
-    }
     let laws = subject.net.as_ref().map(laws).unwrap_or_default();
     if laws.are_laws {
         return Ok(laws);
@@ -96,26 +90,6 @@ fn required(subject: &Subject) -> Result<Asked, Failure> {
         let property = property::parse(&it.text, pt).map_err(|error| refused(error.to_string()))?;
         asked.properties.push(Property { name: it.id.clone(), ..property });
         let (id, sentence) = (it.id.clone().into(), it.sentence.clone().into());
-        asked.requirements.push(Claim { id, sentence });
-        asked.watched.push(watched);
-    }
-    Ok(asked)
-}
-
-/// The requirements of a system.
-fn requirements(all: &[&'static Requirement], subject: &Subject) -> Result<Asked, Failure> {
-    let mut asked = Asked { is_usual: true, ..Asked::default() };
-    for &requirement in all {
-        let Some(it) = requirement.asked else { continue };
-        let refused = |error: String| Failure::new(format!("{}: {error}", requirement.id));
-        let watched = match it.watches {
-            [] => None,
-            watches => subject.watched(watches).map_err(|error| refused(error.to_string()))?,
-        };
-        let pt = watched.as_ref().unwrap_or(subject).model.pt();
-        let property = property::parse(it.text, pt).map_err(|error| refused(error.to_string()))?;
-        asked.properties.push(Property { name: requirement.id.to_owned(), ..property });
-        let (id, sentence) = (requirement.id.into(), requirement.sentence.into());
         asked.requirements.push(Claim { id, sentence });
         asked.watched.push(watched);
     }

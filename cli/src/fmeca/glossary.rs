@@ -1,7 +1,7 @@
 //! The abbreviations on the page, with their meanings.
 
 use cotama_core::text::markup;
-use cotama_models::cotama::Module;
+use cotama_models::robots::Robot;
 use std::collections::HashSet;
 use std::fmt::Write;
 
@@ -21,21 +21,18 @@ const WORDS: [(&str, &str); 12] = [
     ("WiFi", "the wireless network"),
 ];
 
-/// How many of them any analysis may use; the others are the robot's.
-const COMMON: usize = 3;
-
 /// The section of the page; `page` is what stands before it.
-pub(super) fn section(page: &str, is_robot: bool) -> String {
+pub(super) fn section(page: &str, robot: Option<&Robot>) -> String {
     let texts = page.split('<').filter_map(|it| it.split_once('>')).map(|it| it.1);
     let words: HashSet<&str> =
         texts.flat_map(|it| it.split(|it: char| !(it.is_alphanumeric() || it == '-'))).collect();
-    let modules = Module::ALL.iter().map(|it| (it.name(), it.doc()));
+    let modules = robot.into_iter().flat_map(|it| &it.modules);
+    let modules = modules.map(|it| (it.name.as_str(), it.title.as_str()));
     let mut html = String::from(
         "<section id=\"abbreviations\">\n<h2>Abbreviations on this page</h2>\n<p class=\"note\">\
          Ids of failure modes lead to their rows.</p>\n<dl>\n",
     );
-    let own = if is_robot { usize::MAX } else { COMMON };
-    let known = WORDS.into_iter().chain(modules).take(own);
+    let known = WORDS.into_iter().chain(modules);
     for (name, meaning) in known.filter(|it| words.contains(it.0)) {
         let meaning = markup(meaning.trim().trim_end_matches('.'));
         let _ = writeln!(html, "<div><dt>{name}</dt><dd>{meaning}</dd></div>");

@@ -14,7 +14,7 @@ const COLUMNS: [&str; 20] = [
     "effect",
     "severity, robot drives",
     "severity, operator drives",
-    "modules lost",
+    "lost",
     "seen by",
     "detection",
     "within",
@@ -40,7 +40,7 @@ pub(crate) fn write(answer: &FmecaAnswer<'_>) -> String {
     let used: Vec<_> =
         (0..COLUMNS.len()).filter(|&at| rows.iter().any(|it| !it[at].is_empty())).collect();
     let both = answer.rows.iter().any(|it| it.severity_operator.is_some());
-    line(&mut text, used.iter().map(|&at| name(COLUMNS[at], both, answer.is_robot)));
+    line(&mut text, used.iter().map(|&at| name(COLUMNS[at], both)));
     line(&mut text, used.iter().map(|_| "---"));
     for row in &rows {
         line(&mut text, used.iter().map(|&at| row[at].as_str()));
@@ -48,12 +48,10 @@ pub(crate) fn write(answer: &FmecaAnswer<'_>) -> String {
     text
 }
 
-/// Returns the title of a column: without an operator there is one severity, and only the robot has
-/// modules.
-fn name(column: &'static str, both: bool, is_robot: bool) -> &'static str {
+/// Returns the title of a column: without an operator there is one severity.
+fn name(column: &'static str, both: bool) -> &'static str {
     match column {
         "severity, robot drives" if !both => "severity",
-        "modules lost" if !is_robot => "lost",
         _ => column,
     }
 }

@@ -9,6 +9,7 @@ use crate::render::fmeca::{
 };
 use cotama_core::text::markup;
 use cotama_models::fmeca::Analysis;
+use cotama_models::robots::Robot;
 use cotama_pages::causes;
 use cotama_verification::drawing;
 use std::fmt::{Display, Write};
@@ -21,14 +22,12 @@ macro_rules! put {
 }
 
 /// The page.
-pub(crate) fn write(analysis: &Analysis, answer: &FmecaAnswer<'_>) -> String {
-    let (title, about) = if answer.is_robot {
-        let about = "Failure modes, effects and criticality of the delivery robot (COTAMA on a \
-                     Pioneer 3-DX).";
-        ("What can fail, and what is done".to_owned(), about)
-    } else {
-        (sentence(answer.title), "Failure modes, effects and criticality.")
-    };
+pub(crate) fn write(
+    analysis: &Analysis,
+    robot: Option<&Robot>,
+    answer: &FmecaAnswer<'_>,
+) -> String {
+    let (title, about) = (sentence(answer.title), "Failure modes, effects and criticality.");
     let mut page = format!(
         "<main>\n<h1>{}</h1>\n\
          <p>{about} {}.</p>\n<p>{}</p>\n\
@@ -44,7 +43,7 @@ pub(crate) fn write(analysis: &Analysis, answer: &FmecaAnswer<'_>) -> String {
     page.push_str(&matrix(&answer.rows, answer.period_h));
     diagrams(&mut page, analysis, answer);
     diagnosability(&mut page, &answer.diagnosability);
-    let glossary = glossary::section(&page, answer.is_robot);
+    let glossary = glossary::section(&page, robot);
     page.push_str(&glossary);
     put!(page, "</main>\n<script>\n{}</script>", include_str!("page.js"));
     let styles = [drawing::page::THEME, causes::STYLE, include_str!("page.css")];
@@ -135,8 +134,7 @@ fn columns(answer: &FmecaAnswer<'_>) -> Vec<Column> {
     }
     columns.push(("Seen by", "wide", seen));
     if lost {
-        let name = if answer.is_robot { "Modules lost" } else { "Lost" };
-        columns.push((name, "", |row| markup(row.loss)));
+        columns.push(("Lost", "", |row| markup(row.loss)));
     }
     columns.push(("Reaction", "wide", |row| with(markup(row.reaction), markup(&row.event))));
     columns.push(("MTBF", "n", |row| {
@@ -194,7 +192,7 @@ fn table(page: &mut String, answer: &FmecaAnswer<'_>) {
          to 10, which stand below it: severity (S, the worse where there are two), occurrence (O) \
          and detection (D).</p>"
     );
-    pick(page, if answer.is_robot { "sonar, global event" } else { "a component or a cause" });
+    pick(page, "a component or a cause");
     page.push_str("<div class=\"scroll\"><table>\n<thead><tr><th>Id");
     let attribute = |class: &str| {
         if class.is_empty() { class.to_owned() } else { format!(" class=\"{class}\"") }
@@ -233,24 +231,18 @@ fn diagrams(page: &mut String, analysis: &Analysis, answer: &FmecaAnswer<'_>) {
 }
 
 fn diagnosability(page: &mut String, it: &Diagnosability<'_>) {
-    let asks = if it.ambiguous_case.is_some() { " the robot asks" } else { " somebody must look" };
     put!(
         page,
         "<section id=\"diagnosability\">\n<h2>What cannot be told apart</h2>\n\
          <p class=\"note\">A failure mode is a candidate when it explains the raised flags \
-         exactly. Where some flags leave several candidates,{asks}. A probe is an observation that \
+         exactly. Where some flags leave several candidates, all are
+         taken to be there. A probe is an observation that \
          could be added.</p>"
     );
     for row in &it.statuses {
         status(page, row, it.statuses.len() > 1);
     }
     probes(page, it);
-    if let Some(case) = &it.ambiguous_case {
-        page.push_str("<h3>The ambiguous case: point 3 of the published run</h3>\n");
-        for paragraph in &case.text {
-            put!(page, "<p>{}</p>", code(paragraph));
-        }
-    }
     page.push_str("</section>\n");
 }
 
@@ -258,23 +250,15 @@ fn probes(page: &mut String, it: &Diagnosability<'_>) {
     if it.probes.is_empty() {
         return;
     }
-    // Only the robot's probes say what they need.
-    let needs = it.ambiguous_case.is_some();
     put!(
         page,
         "<h3>Probes</h3>\n<div class=\"scroll\"><table>\n<thead><tr><th>Probe<th>Who \
-         would observe what<th>Shows{}</tr></thead>\n<tbody>",
-        if needs { "<th>Needs" } else { "" }
+         would observe what<th>Shows</tr></thead>\n<tbody>"
     );
     for probe in &it.probes {
-        let needs = match probe.needs.as_slice() {
-            _ if !needs => String::new(),
-            [] => "<td>itself".to_owned(),
-            modules => format!("<td>{}", modules.join(" ")),
-        };
         put!(
             page,
-            "<tr><th scope=\"row\">{}<td>{}<td>{}{needs}</tr>",
+            "<tr><th scope=\"row\">{}<td>{}<td>{}</tr>",
             markup(probe.name),
             markup(probe.doc),
             links(&probe.shows)

@@ -1,33 +1,25 @@
 //! An analysis as an answer.
 
 use super::diagnosability;
-use super::names::modules;
 use crate::answers::fmeca::{CountsRow, CriticalityRow, DiagramRow, FmecaAnswer, FmecaRow, RibRow};
-use cotama_models::cotama::{FailureMode, Modules, Persistence, Report, Resource, Severity};
 use cotama_models::fmeca::{Analysis, Mode};
+use cotama_models::robots::{Parts, Robot};
+use cotama_models::severity::{Persistence, Severity};
 
-/// All that is known; of the robot, its typed rows say more.
-pub(crate) fn answer(analysis: &Analysis, is_robot: bool) -> FmecaAnswer<'_> {
-    let typed = |it: &Mode| if is_robot { FailureMode::named(&it.id) } else { None };
-    let rows: Vec<_> = analysis.modes().iter().map(|it| row(analysis, it, typed(it))).collect();
+/// All that is known; a robot says more than a file of rows.
+pub(crate) fn answer<'a>(analysis: &'a Analysis, robot: Option<&'a Robot>) -> FmecaAnswer<'a> {
+    let rows: Vec<_> = analysis.modes().iter().map(|it| row(analysis, it, robot)).collect();
     FmecaAnswer {
         schema: "cotama/fmeca/1",
         title: analysis.title(),
         period_h: analysis.period_h(),
-        is_robot,
         counts: counts(analysis, &rows),
         rows,
         diagrams: analysis.functions().into_iter().map(|it| diagram(analysis, it)).collect(),
-        diagnosability: if is_robot {
-            diagnosability::of_the_robot(analysis)
-        } else {
-            diagnosability::of_a_file(analysis)
-        },
+        diagnosability: diagnosability::of(analysis, robot),
     }
 }
 
-/// The counts. That every row of the robot is detected and answered, or declared invisible with a
-/// reason, is asserted where they are defined, while compiling.
 fn counts(analysis: &Analysis, rows: &[FmecaRow<'_>]) -> CountsRow {
     let detected = || rows.iter().filter(|it| !it.flags_always.is_empty());
     let undetectable = rows.iter().filter(|it| it.undetectable_reason.is_some()).count();
@@ -42,12 +34,22 @@ fn counts(analysis: &Analysis, rows: &[FmecaRow<'_>]) -> CountsRow {
     }
 }
 
-fn row<'a>(analysis: &'a Analysis, it: &'a Mode, typed: Option<FailureMode>) -> FmecaRow<'a> {
-    let rule = typed.map(FailureMode::rule);
-    // A fault of one module, whichever it is, takes no module for sure.
-    let gone = typed.map(|it| Modules::ALL.without(it.health(Modules::NONE).available()));
-    let lost = rule.into_iter().flat_map(|it| it.lost.iter());
-    let named = |set: Option<Modules>| set.map_or_else(Vec::new, modules);
+fn row<'a>(analysis: &'a Analysis, it: &'a Mode, robot: Option<&'a Robot>) -> FmecaRow<'a> {
+    let failure = robot.and_then(|robot| {
+        let number = robot.failure(&it.id)?;
+        Some((robot, number, robot.failures.get(number)?))
+    });
+    let lost = |of: fn(Parts) -> Parts| {
+        failure.map_or_else(Vec::new, |(robot, _, it)| robot.names_of(of(it.loses)))
+    };
+    let report = failure.filter(|it| it.2.unseen.is_none()).and_then(|(robot, number, _)| {
+        let all = &robot.losses.reports;
+        all.iter().find(|it| it.failures.contains(&number)).map(|it| it.name.as_str())
+    });
+    let gone = failure.map_or_else(Vec::new, |(robot, _, it)| {
+        let gone = robot.available(Parts::NONE) & !robot.available(it.loses);
+        robot.names_of(Parts { hardware: 0, modules: gone })
+    });
     FmecaRow {
         id: &it.id,
         function: &it.function,
@@ -60,37 +62,30 @@ fn row<'a>(analysis: &'a Analysis, it: &'a Mode, typed: Option<FailureMode>) -> 
         class: &it.event,
         persistence: it.persistence.map(Persistence::name),
         loss: &it.lost,
-        modules_faulty: named(rule.map(|it| it.faulty)),
-        any_one_module: rule.is_some_and(|it| it.one_module),
-        resources_lost: lost.map(Resource::name).collect(),
-        modules_unavailable: named(gone),
+        modules_faulty: lost(|it| Parts { hardware: 0, ..it }),
+        resources_lost: lost(|it| Parts { modules: 0, ..it }),
+        modules_unavailable: gone,
         observer: &it.observer,
         detection: &it.detection,
         detection_latency_ms: it.latency_ms,
         flags_always: analysis.names(&it.flags),
         flags_sometimes: analysis.names(&it.sometimes),
-        only_with_modules: named(rule.map(|it| it.signature.present)),
-        only_without_modules: named(rule.map(|it| it.signature.absent)),
         undetectable_reason: it.silent.as_deref(),
-        report: rule.and_then(|it| it.report).map(Report::name),
+        report,
         reaction: &it.reaction,
         mtbf_mh: it.mtbf_mh,
         rate_label: it.rate_label.name(),
         rate_source: &it.rate_source,
         injection: &it.injection,
         criticality: criticality(analysis, it),
-        event: event(it, typed),
+        event: robot.map_or_else(|| it.event.clone(), |_| event(it, report)),
     }
 }
 
-/// Returns the outcome of a failure mode while the robot drives itself; in a file, as it says.
-fn event(it: &Mode, typed: Option<FailureMode>) -> String {
-    match typed.map(|it| it.rule().report) {
-        None => it.event.clone(),
-        Some(Some(report)) => format!("report {}, {} event", report.name(), it.event),
-        Some(None) if it.silent.is_some() => "no event".to_owned(),
-        Some(None) => "recorded".to_owned(),
-    }
+/// Returns the outcome of a failure mode while the robot drives itself.
+fn event(it: &Mode, report: Option<&str>) -> String {
+    let told = |report| format!("report {report}, {} event", it.event);
+    report.map_or_else(|| "no event".to_owned(), told)
 }
 
 fn criticality(analysis: &Analysis, mode: &Mode) -> CriticalityRow {

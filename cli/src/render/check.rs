@@ -33,12 +33,6 @@ pub(crate) fn reasons(answer: &CheckAnswer, explained: &[Option<String>], width:
             }
         }
     }
-    if !answer.otherwise.is_empty() {
-        let _ = writeln!(text, "\n{HEADING}not asked here, known otherwise{HEADING:#}");
-    }
-    for row in &answer.otherwise {
-        text += &wrapped(&format!("  {}: {} ({})", row.id, row.sentence, row.how), width, "      ");
-    }
     if !answer.left_out.is_empty() {
         text += &wrapped(
             &format!(

@@ -21,8 +21,7 @@ const LONGEST_ID: usize = 12;
 
 /// Returns the heading of the analysis.
 pub(crate) fn heading(answer: &FmecaAnswer<'_>) -> String {
-    let link = if answer.is_robot { " of " } else { ": " };
-    format!("FMECA{link}{}", answer.title)
+    format!("FMECA: {}", answer.title)
 }
 
 /// How many rows are detected and answered.
@@ -36,14 +35,6 @@ pub(crate) fn summary(answer: &FmecaAnswer<'_>) -> String {
         modes(counts.rows),
         counts.functions
     );
-    if answer.is_robot {
-        return format!(
-            "{total}: {} are detected ({} reported to the contextual supervisor, {} recorded with \
-             a reaction of their own), {} are declared undetectable with a reason; none is left \
-             out, which is checked while compiling",
-            counts.detected, counts.reported, counts.recorded, counts.undetectable
-        );
-    }
     let unexplained = match counts.unexplained {
         0 => String::new(),
         number => format!(", {number} not detected and without a reason"),
@@ -265,14 +256,6 @@ pub(crate) fn diagnosability(it: &Diagnosability<'_>, width: usize) -> String {
         let what =
             if probe.doc.is_empty() { shows } else { format!("{} {shows}", sentence(probe.doc)) };
         text += &described(probe.name, longest, NAME, &what, width);
-    }
-    if let Some(case) = &it.ambiguous_case {
-        let _ = writeln!(text, "\n{HEADING}the ambiguous case{HEADING:#}");
-        let which = format!("Point 3 of the published run: {}.", case.candidates.join(", "));
-        text += &wrapped(&which, width, "  ");
-        for paragraph in &case.text {
-            text += &wrapped(paragraph, width, "  ");
-        }
     }
     text
 }

@@ -9,20 +9,20 @@ use cortex_m_rt::entry;
 use cotama_core::allocation::Allocator;
 use cotama_core::net::EventId;
 use cotama_core::panorama::Panorama;
+use cotama_core::player::Program;
 use cotama_core::problem::Problem;
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
-use cotama_core::player::Program;
 use cotama_models::missions::tables::patrol::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
 use cotama_models::missions::tables::{EMPTY, Rest, remaining};
 use cotama_models::nets::ace::selection;
 use robot::control::{Control, PERIOD_MS};
-use robot::robots::{delivery, transport};
 use robot::dice::Dice;
 use robot::guard::Guard;
 use robot::link::{Receiver, Sender};
 use robot::message::Period;
 use robot::patrol::{CANDIDATES, COURSE, Patrol, Planner, STAGES, Tables, Workspace};
+use robot::robots::{delivery, transport};
 use robot::surroundings::{Incident, SEVEN_POINTS, Surroundings};
 use robot::trace::{Nowhere, Trace};
 use semihosting::println;
@@ -122,8 +122,7 @@ fn live<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>(
 }
 
 fn level() {
-    let (mut control, mut world) =
-        (delivery::Control::default(), Surroundings::new(&SEVEN_POINTS));
+    let (mut control, mut world) = (delivery::Control::default(), Surroundings::new(&SEVEN_POINTS));
     live(&mut control, &mut world, "");
     let mut bytes = [0; delivery::STORED_BYTES];
     counted!(control.store(black_box(&mut bytes)).is_some());

@@ -7,9 +7,9 @@ use cortex_m::Peripherals;
 use cortex_m::interrupt::{Mutex, free};
 use cotama_core::units::Millis;
 use robot::control::PERIOD_MS;
-use robot::robots::delivery::{Control, STORED_BYTES, Supervisors, at_rest};
 use robot::guard::{Guard, STARVES_AFTER_MS};
 use robot::patrol::{Tables, Workspace};
+use robot::robots::delivery::{Control, STORED_BYTES, Supervisors, at_rest};
 use robot::server::{Served, Server};
 use robot::store::{LONGEST, Store};
 

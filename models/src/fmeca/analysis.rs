@@ -1,7 +1,8 @@
 //! An analysis: its rows, the flags that show them, and probes that could be added.
 
 use super::set::Set;
-use crate::cotama::{Label, Persistence, Severity};
+use crate::fmeca::Label;
+use crate::severity::{Persistence, Severity};
 
 /// The most failure modes of an analysis.
 pub const MAX_MODES: usize = 4096;
@@ -14,7 +15,7 @@ pub const MAX_PROBES: usize = 16;
 /// cause, effect, severity and rate, and all sets are of flags and rows that exist.
 ///
 /// It is made by [`parse`](Self::parse), [`parse_csv`](Self::parse_csv) and
-/// [`of_the_robot`](Self::of_the_robot).
+/// [`shipped`](Self::shipped).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Analysis {
     pub(super) title: String,
@@ -159,7 +160,7 @@ impl Analysis {
     ///
     /// ```
     /// use cotama_models::fmeca::Analysis;
-    /// let robot = Analysis::of_the_robot();
+    /// let robot = Analysis::shipped("p3dx-delivery").unwrap();
     /// let rib = &robot.ribs("supply energy")[0];
     /// let ids: Vec<_> = rib.modes.iter().map(|it| it.id.as_str()).collect();
     /// assert_eq!((rib.component, ids), ("battery", vec!["BAT1", "BAT2"]));

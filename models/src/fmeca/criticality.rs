@@ -11,7 +11,7 @@ use crate::severity::Severity;
 ///
 /// ```
 /// use cotama_models::fmeca::{Analysis, OccurrenceClass, SeverityClass};
-/// let robot = Analysis::of_the_robot();
+/// let robot = Analysis::shipped("p3dx-delivery").unwrap();
 /// // BAT2: fatal, every 400 h, seen after 1 s.
 /// let bat2 = robot.modes().iter().find(|it| it.id == "BAT2").unwrap();
 /// let it = robot.criticality(bat2);

@@ -20,7 +20,7 @@ impl Analysis {
     ///
     /// ```
     /// use cotama_models::fmeca::{Analysis, COLUMNS};
-    /// let csv = Analysis::of_the_robot().to_csv();
+    /// let csv = Analysis::shipped("p3dx-delivery").unwrap().to_csv();
     /// assert_eq!(csv.lines().next(), Some(COLUMNS));
     /// let again = Analysis::parse_csv("robot.csv", &csv).unwrap();
     /// assert_eq!(again.modes().len(), 40);
@@ -149,7 +149,7 @@ mod tests {
 
     #[test]
     fn a_text_like_a_formula_is_read_back_as_it_was() {
-        let csv = Analysis::of_the_robot().to_csv();
+        let csv = Analysis::shipped("p3dx-delivery").unwrap().to_csv();
         let effect = csv.lines().nth(1).unwrap().split(',').nth(5).unwrap().to_owned();
         for text in ["=1+2", "@x", "-stop", "+go", "'=x", "''-", "it's"] {
             let analysis = csv.replacen(&effect, &quoted(text.to_owned()), 1);

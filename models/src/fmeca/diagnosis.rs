@@ -58,8 +58,8 @@ pub struct Pair {
 }
 
 impl Analysis {
-    /// The status in which all can happen, be raised and be added. The statuses of the robot are
-    /// [`Status::of_the_robot`], as some of its rows rule each other out.
+    /// The status in which all can happen, be raised and be added. Those of a robot after a loss
+    /// are [`Status::after`].
     pub fn sound(&self) -> Status {
         Status {
             name: "sound".to_owned(),
@@ -83,7 +83,7 @@ impl Analysis {
     ///
     /// ```
     /// use cotama_models::fmeca::Analysis;
-    /// let robot = Analysis::of_the_robot();
+    /// let robot = Analysis::shipped("p3dx-delivery").unwrap();
     /// let at = |id| robot.modes().iter().position(|it| it.id == id).unwrap();
     /// let (least, most) = robot.shared(&[at("ODO2"), at("LOC1")], &robot.sound()).unwrap();
     /// assert_eq!(robot.names(&least), ["pose growth"]);
@@ -106,7 +106,7 @@ impl Analysis {
     ///
     /// ```
     /// use cotama_models::fmeca::Analysis;
-    /// let robot = Analysis::of_the_robot();
+    /// let robot = Analysis::shipped("p3dx-delivery").unwrap();
     /// let told = robot.diagnose(&robot.sound());
     /// let groups: Vec<_> = told.groups.list.into_iter().map(|it| robot.ids(it)).collect();
     /// assert_eq!(groups[0], ["ODO2", "LOC1", "LOC2"]);

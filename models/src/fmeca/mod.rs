@@ -1,10 +1,10 @@
-//! Failure modes, effects and criticality analyses (FMECA) as data: from a file, or the delivery
-//! robot's.
+//! Failure modes, effects and criticality analyses (FMECA) as data: from a file of rows, or from a
+//! robot.
 //!
 //! [`Analysis::parse`] reads a `cotama-fmeca/1` file in TOML, [`Analysis::parse_csv`] a table with
-//! a heading; both report every error at once, with its place. [`Analysis::of_the_robot`] is made
-//! from the typed rows of [`cotama`](crate::cotama). What follows is the same for all of them and
-//! cannot fail: [criticality](Analysis::criticality), [what is alike](Analysis::diagnose),
+//! a heading; both report every error at once, with its place. The rows of a
+//! [robot](crate::robots::Robot) become one by `TryFrom`. What follows is the same for all of
+//! them and cannot fail: [criticality](Analysis::criticality), [what is alike](Analysis::diagnose),
 //! [cause-effect diagrams](Analysis::ribs), [comma-separated values](Analysis::to_csv).
 //!
 //! ```
@@ -36,9 +36,9 @@ mod criticality;
 mod csv;
 mod diagnosis;
 mod groups;
+mod label;
 mod own_robot;
 mod reader;
-mod robot;
 mod rows;
 mod set;
 
@@ -47,6 +47,7 @@ pub use criticality::{Criticality, CriticalityClass, OccurrenceClass, SeverityCl
 pub use csv::COLUMNS;
 pub use diagnosis::{Diagnosability, MAX_PAIRS, Pair, Status};
 pub use groups::{Groups, MAX_GROUPED};
+pub use label::Label;
 pub use own_robot::NoRate;
 pub use reader::FORMAT;
 pub(crate) use reader::thousandths;

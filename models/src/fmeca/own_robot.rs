@@ -1,11 +1,13 @@
 //! The analysis of a robot from its file.
 
 use super::analysis::{Analysis, Flag, Mode};
+use super::diagnosis::Status;
+use super::label::Label;
 use super::set::Set;
-use crate::cotama::{Label, Severity};
-use crate::robots::{self, Configuration, Failure, Parts, Robot, members};
+use crate::robots::{self, Configuration, Failure, Parts, Robot};
+use crate::severity::Severity;
 
-/// A working day, as for the delivery robot (assumed).
+/// A mission of a robot takes minutes; this is a working day (assumed).
 const PERIOD_H: u32 = 8;
 
 /// Failures of a robot without `mean_hours`, by their short names: nothing can be said of their
@@ -59,10 +61,39 @@ impl TryFrom<&Robot> for Analysis {
     }
 }
 
+impl Analysis {
+    /// The rows of a robot that comes with the program; `None` where there is none of this name, or
+    /// one without rates.
+    pub fn shipped(name: &str) -> Option<Self> {
+        Self::try_from(&Robot::shipped(name)?).ok()
+    }
+}
+
+impl Status {
+    /// A robot in which one of its losses, by its number, is known: the flags of observers that
+    /// lack something are not raised. Failures and flags are those of its analysis.
+    pub fn after(robot: &Robot, loss: usize) -> Self {
+        let loss = robot.losses.losses.get(loss);
+        let available = !loss.map_or(0, |it| it.modules) & robot.available(Parts::NONE);
+        let sees = |observer: usize| {
+            let needs = robot.observers.get(observer).map_or(0, |it| it.needs.modules);
+            needs & !available == 0
+        };
+        let flags = robot.flags().enumerate().filter(|it| sees(it.1.0)).map(|it| it.0);
+        let rows = robot.failures.iter().filter(|it| !it.no_plan).count();
+        Self {
+            name: loss.map_or_else(|| "sound".to_owned(), |it| format!("{} lost", it.name)),
+            flags: Set::of(robot.flags().count(), flags),
+            modes: Set::of(rows, 0..rows),
+            probes: Set::of(0, std::iter::empty()),
+        }
+    }
+}
+
 fn mode(robot: &Robot, it: &Failure) -> Mode {
     let said = |text: &str, or: &str| if text.is_empty() { or.to_owned() } else { text.to_owned() };
     let count = robot.flags().count();
-    let lost = names(robot, it.loses);
+    let lost = robot.names_of(it.loses).join(" ");
     let component = if it.item.is_empty() { said(&lost, "the robot") } else { it.item.clone() };
     Mode {
         id: it.id.clone(),
@@ -91,13 +122,6 @@ fn mode(robot: &Robot, it: &Failure) -> Mode {
         rate_source: said(&it.source, "not said"),
         injection: String::new(),
     }
-}
-
-fn names(robot: &Robot, parts: Parts) -> String {
-    let hardware = members(parts.hardware).filter_map(|it| robot.hardware.get(it));
-    let modules = members(parts.modules).filter_map(|it| robot.modules.get(it));
-    let names = hardware.map(|it| it.name.as_str()).chain(modules.map(|it| it.name.as_str()));
-    names.collect::<Vec<_>>().join(" ")
 }
 
 fn observers(robot: &Robot, of: &Failure) -> String {

@@ -13,7 +13,7 @@ impl Analysis {
     ///
     /// ```
     /// use cotama_models::fmeca::Analysis;
-    /// let rows = Analysis::of_the_robot().to_rows();
+    /// let rows = Analysis::shipped("p3dx-delivery").unwrap().to_rows();
     /// assert_eq!(rows.matches("[[failure]]").count(), 40);
     /// assert!(rows.starts_with("[[failure]]\nid = \"SON1\"\n"));
     /// ```

@@ -132,7 +132,7 @@ impl<'t, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
             self.stands_since = now;
         }
         let mut restarts = self.round(now, observer);
-        let (told, cause) = match self.next() {
+        let (told, cause) = match self.next_untold() {
             Some((told, cause)) => (Some(told), cause),
             None => (self.shows(now, drive).or(said), Cause(0)),
         };
@@ -216,7 +216,7 @@ impl<'t, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
     }
 
     /// Takes the oldest of what waits to be told.
-    pub fn next(&mut self) -> Option<(Told, Cause)> {
+    pub fn next_untold(&mut self) -> Option<(Told, Cause)> {
         self.untold.pop()
     }
 

@@ -11,11 +11,13 @@
 //! | [`charger`] | groups, a redundant flag that protects, windows for events |
 //! | [`crossing`] | two tokens in one net, transitions that fire at once |
 //! | [`ace`] | a published robot's behaviour selection and control, as four nets |
+//! | [`by_hand`] | COTAMA's supervisors as nets that work together |
 //!
 //! With the feature `std` there are [`families`] of nets, known from the literature with their
 //! counts, and all nets can be [found](find) by name.
 
 pub mod ace;
+pub mod by_hand;
 pub mod charger;
 pub mod crossing;
 pub mod door;

@@ -83,28 +83,36 @@ pub mod tasks {
     /// For each configuration its modules, the most urgent first, by number, and their tasks.
 ";
     let all = &robot.configurations;
-    *text += &format!("    pub static TASKS: [&[(u8, Task)]; {}] = [\n", all.len());
+    let _ = writeln!(text, "    pub static TASKS: [&[(u8, Task)]; {}] = [", all.len());
     for it in all {
         let (modules, tasks) = in_time::tasks(robot, it);
         let modules = modules.into_iter().map(|it| number(it).unwrap_or(MAX_PARTS));
         *text += "        &[\n";
-        modules.zip(tasks).for_each(|it| *text += &format!("            {it:?},\n"));
+        row(text, "            ", modules.zip(tasks));
         *text += "        ],\n";
     }
     *text += "    ];\n}\n";
 }
 
+/// A line for each.
+fn row(text: &mut String, indent: &str, all: impl Iterator<Item = impl Debug>) {
+    for it in all {
+        let _ = writeln!(text, "{indent}{it:?},"); // a text takes all
+    }
+}
+
 fn rows(text: &mut String, name: &str, all: &[impl Debug]) {
-    *text += &format!("        {name}: &[\n");
-    all.iter().for_each(|it| *text += &format!("            {it:?},\n"));
+    let _ = writeln!(text, "        {name}: &[");
+    row(text, "            ", all.iter());
     *text += "        ],\n";
 }
 
 fn names<'n>(text: &mut String, name: &str, all: impl Iterator<Item = &'n str>) {
     let all: Vec<_> = all.collect();
     let doc = name.to_lowercase().replace('_', "-");
-    *text +=
-        &format!("    /// Names of the {doc}.\n    pub const {name}: [&str; {}] = [\n", all.len());
-    all.iter().for_each(|it| *text += &format!("        {it:?},\n"));
+    let count = all.len();
+    let _ =
+        writeln!(text, "    /// Names of the {doc}.\n    pub const {name}: [&str; {count}] = [");
+    row(text, "        ", all.iter());
     *text += "    ];\n";
 }

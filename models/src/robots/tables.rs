@@ -29,7 +29,7 @@ use cotama_core::system::{Of, System};
 ///     // A lidar that shows no return is lost: what waits is told in the next period.
 ///     let mut decider = Decider::new(level);
 ///     decider.report(robot.failure("LID1").unwrap(), Cause(1));
-///     assert_eq!(decider.next(), Some((Told::Report(0), Cause(1))));
+///     assert_eq!(decider.next_untold(), Some((Told::Report(0), Cause(1))));
 /// });
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]

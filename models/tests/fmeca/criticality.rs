@@ -105,7 +105,7 @@ fn the_criticality_matrix() {
 /// Every row of the delivery robot: RPN and class.
 #[test]
 fn the_delivery_robot() {
-    let robot = Analysis::of_the_robot();
+    let robot = Analysis::shipped("p3dx-delivery").unwrap();
     let mut lines: Vec<_> = robot
         .modes()
         .iter()

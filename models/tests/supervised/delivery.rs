@@ -3,8 +3,8 @@
 
 use crate::nets::move_of;
 use cotama_core::net::owned::OwnedNet;
-use cotama_models::cotama::global;
 use cotama_models::missions::{Does, Mission, embedded};
+use cotama_models::nets::by_hand::global;
 use cotama_models::robots::supervisors::of_mission;
 use cotama_models::robots::{Answer, IncidentKind, Mode, Moment, Parts, Robot};
 

@@ -178,7 +178,7 @@ impl Observed {
             met: run
                 .conduct
                 .iter()
-                .map(|it| (it.failure, robot.name_of(it.during).to_owned()))
+                .map(|it| (it.failure, robot.place_name(it.during).to_owned()))
                 .collect(),
             allowed: robot.body.as_ref().map_or((0, 0), |body| {
                 let rows = run.conduct.iter().filter_map(row);

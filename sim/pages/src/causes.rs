@@ -22,7 +22,7 @@ const WIDE: i64 = 1440;
 /// ```
 /// use cotama_models::fmeca::Analysis;
 /// use cotama_pages::causes;
-/// let sheet = causes::all(&Analysis::of_the_robot());
+/// let sheet = causes::all(&Analysis::shipped("p3dx-delivery").unwrap());
 /// assert!(sheet.starts_with("<svg xmlns=") && sheet.contains("cannot"));
 /// ```
 pub fn all(analysis: &Analysis) -> String {

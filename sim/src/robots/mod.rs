@@ -21,6 +21,8 @@ mod hindered;
 mod monitor;
 pub(crate) mod operator;
 mod summary;
+#[cfg(test)]
+mod twin;
 mod world;
 
 use crate::options::{Options, Planner};

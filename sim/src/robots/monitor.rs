@@ -9,7 +9,7 @@ use cotama_core::net::{EventId, PlaceId, Role};
 use cotama_core::player::{Player, Program};
 use cotama_core::system::{Delivery, Of, System};
 use cotama_core::units::Millis;
-use cotama_models::cotama::Cause;
+use cotama_models::level::Cause;
 use cotama_property::pt::Pt;
 use cotama_property::{self as property, Condition, Formula, Marking, PropertyError, Question};
 use std::fmt;

@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 /// How long he takes to answer a request, to look around, and to edit (assumed).
 pub(super) const ANSWERS_AFTER: Millis = Millis(8_000);
 /// How long a request may stay without an answer before the operator counts as silent (assumed).
-pub(crate) const PATIENCE: Millis = cotama_models::cotama::PATIENCE;
+pub(crate) const PATIENCE: Millis = cotama_models::level::PATIENCE;
 
 /// An operator with a script, and habits where it says nothing.
 #[derive(Clone, Debug)]

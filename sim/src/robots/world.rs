@@ -66,6 +66,41 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     planless: bool,
     /// Whether nothing happened in the last period.
     calm: bool,
+    /// The observations of the last period in which the computer was up.
+    #[cfg(test)]
+    pub(super) observed: Option<Observed>,
+}
+
+/// Flags as they are raised and up, and the modules that work.
+#[cfg(test)]
+pub(super) struct Observed {
+    pub(super) now: Millis,
+    pub(super) raised: u64,
+    pub(super) up: u64,
+    pub(super) works: u64,
+}
+
+#[cfg(test)]
+impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
+    /// Goes on for a period; whether the mission goes on, and the computer is up.
+    pub(super) fn goes_on(&mut self) -> bool {
+        let mut silent = Silent;
+        self.step(&mut Recording::new(&mut silent));
+        self.end().is_none() && self.failures.thinks(self.robot)
+    }
+
+    fn note_observed(&mut self, now: Millis) {
+        let tables = self.tables();
+        let flags = |row: usize| tables.failures.get(row).map_or(0, |it| it.flags);
+        let new = self.run.conduct.iter().filter(|it| it.detected == Some(now));
+        let open = self.failures.all.iter().filter(|it| it.found && !it.over);
+        self.observed = Some(Observed {
+            now,
+            raised: new.fold(0, |set, it| set | flags(it.failure)),
+            up: open.fold(0, |set, it| set | flags(it.number)),
+            works: self.robot.available(self.failures.broken(self.robot)),
+        });
+    }
 }
 
 impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S> {
@@ -132,6 +167,8 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             last: (Millis(0), Vec::new()),
             planless: false,
             calm: false,
+            #[cfg(test)]
+            observed: None,
         })
     }
 
@@ -290,6 +327,8 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let tables = self.tables();
         let broken = self.failures.broken_losses(self.robot, tables);
         self.decider.see(now, self.failures.shown(tables), broken);
+        #[cfg(test)]
+        self.note_observed(now);
         self.calm &= self.decider.listens();
     }
 

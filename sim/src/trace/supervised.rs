@@ -4,7 +4,7 @@
 //! Failures have numbers from 1 in the order of their happening; `cause` and `failure` are such
 //! numbers.
 
-use cotama_models::cotama::{Class, Mode, Severity};
+use cotama_models::severity::{Class, Severity};
 use serde::{Deserialize, Serialize};
 
 /// A transition of a supervisor fired.
@@ -14,8 +14,7 @@ pub struct Fired {
     pub t_us: u64,
     /// Position, in mm.
     pub x_mm: u64,
-    /// The net, by its name in the system `delivery`: `gs`, `ls`, `pf`, `to`, `permit`, `gom` or
-    /// `cs`.
+    /// The net, by its name in the system of supervisors, as `ls`.
     pub net: String,
     /// The transition.
     pub transition: String,
@@ -132,6 +131,35 @@ pub struct Exposure {
     pub exposed_ms: u64,
 }
 
+/// The autonomy mode: the decider of the robot's motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Autonomy {
+    /// The robot.
+    Autonomous,
+    /// Nobody yet: the robot stands and has asked.
+    HandOver,
+    /// The operator, by way-points; the robot stands.
+    Teleprogrammed,
+    /// The operator, by hand.
+    Teleoperated,
+}
+
+impl Autonomy {
+    /// All modes.
+    pub const ALL: [Self; 4] =
+        [Self::Autonomous, Self::HandOver, Self::Teleprogrammed, Self::Teleoperated];
+
+    /// Returns the name in traces.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Autonomous => "autonomous",
+            Self::HandOver => "hand-over",
+            Self::Teleprogrammed => "teleprogrammed",
+            Self::Teleoperated => "teleoperated",
+        }
+    }
+}
+
 /// Other modules run from now on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Configured {
@@ -144,5 +172,5 @@ pub struct Configured {
     pub configuration: Option<String>,
     /// The autonomy mode.
     #[serde(with = "crate::named")]
-    pub mode: Mode,
+    pub mode: Autonomy,
 }

@@ -68,10 +68,10 @@ while read -r name; do
 done <"$work/names"
 
 # Every net and every system of the models, and of this crate, by the module that `net!`, `system!`
-# or a macro over them makes of it, has a player's roots here, but for those that the printed system
-# replaces; so has that system.
+# or a macro over them makes of it, has a player's roots here; so has the system that is printed from
+# the robot's file.
 {
-    find ../../../models/src src -name '*.rs' ! -path '*/models/src/cotama/*' -exec awk '
+    find ../../../models/src src -name '*.rs' -exec awk '
         /^ *(cotama_core::|crate::)?(net|system)! *\{/ { open = 1 }
         open && /^ *(pub )?mod [a-z0-9_]+ *(extends .*)?\{/ { sub(/pub /, ""); print $2; open = 0 }
     ' {} +

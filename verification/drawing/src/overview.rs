@@ -36,8 +36,8 @@ const LEGEND: [svg::Key; 3] = [
 /// name. A dashed line leads from a net to one that `sees` its places or its mailboxes.
 ///
 /// ```
-/// let drawing =
-///     cotama_verification::drawing::overview::write(&cotama_models::cotama::delivery::SYSTEM);
+/// use cotama_models::nets::by_hand::delivery;
+/// let drawing = cotama_verification::drawing::overview::write(&delivery::SYSTEM);
 /// assert!(drawing.starts_with("<svg xmlns=") && drawing.contains("start_drive"));
 /// ```
 pub fn write(system: &System<'_>) -> String {
@@ -130,11 +130,12 @@ fn said(system: &System<'_>) -> Vec<Said> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cotama_models::cotama::{delivery, recovering};
+    use cotama_models::nets::ace::robot;
+    use cotama_models::nets::by_hand::delivery;
 
     #[test]
     fn every_link_and_every_shared_place_is_drawn_once() {
-        for system in [delivery::SYSTEM, recovering::SYSTEM] {
+        for system in [delivery::SYSTEM, robot::SYSTEM] {
             let mut boxes = OwnedNet::new("boxes", "");
             for component in system.components {
                 boxes.place(OwnedPlace::new(component.name, 0)).unwrap();

@@ -2,7 +2,7 @@
 //! everybody goes on.
 
 use crate::delivery::explored;
-use cotama_models::cotama::delivery;
+use cotama_models::nets::by_hand::delivery;
 use cotama_verification::explicit::{Goal, Graph};
 use cotama_verification::flat::rounds;
 use cotama_verification::property::{Ctl, Formula, Question, parse};

@@ -1,6 +1,6 @@
 //! The decisional level as it was first reconstructed: faults and operator are one net, and reports
 //! reach the contextual supervisor without diagnosis. The shipped system is
-//! [`delivery`](cotama_models::cotama::delivery); this one is kept for its state counts, which two
+//! [`delivery`](cotama_models::nets::by_hand::delivery); this one is kept for its state counts, which two
 //! other programs found as well.
 
 use cotama_core::net::EventId;
@@ -8,7 +8,7 @@ use cotama_core::player::Outcome;
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
 use cotama_core::{net, system};
-use cotama_models::cotama::{
+use cotama_models::nets::by_hand::{
     contextual, global, local, path_following, supervision, teleoperation,
 };
 use cotama_verification::flat::flat;

@@ -5,7 +5,7 @@ use cotama_core::net::EventId;
 use cotama_core::player::{Loaded, Packed, Player, Recorder};
 use cotama_core::system::{Component, Of, System};
 use cotama_core::units::Millis;
-use cotama_models::cotama::delivery;
+use cotama_models::nets::by_hand::delivery;
 use cotama_models::nets::{charger, crossing, door, watchdog};
 use cotama_verification::conform::{Options, Recording, Verdict, conform};
 

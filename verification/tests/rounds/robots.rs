@@ -3,6 +3,9 @@
 
 use crate::conformance::Draw;
 use crate::drawn::Drawn;
+use crate::mutations::mutants;
+use cotama_core::net::owned::View;
+use cotama_core::system::{Component, System};
 use cotama_models::robots::Robot;
 use cotama_models::robots::requirements::{self, Requirement};
 use cotama_models::robots::supervisors::{OwnedSystem, system, to_rust};
@@ -52,6 +55,43 @@ fn every_requirement_of_the_transport_robot_holds() {
     let robot = Robot::shipped("transport").unwrap();
     assert_eq!(requirements::of(&robot).len(), 27);
     assert_eq!(broken(&robot, &system(&robot)), Vec::<String>::new());
+}
+
+/// A system that lives to the end.
+fn lent(system: OwnedSystem) -> System<'static> {
+    let it: &'static OwnedSystem = Box::leak(Box::new(system));
+    let views: &'static [_] = it.nets.iter().map(|it| it.1.view()).collect::<Vec<_>>().leak();
+    let nets: &'static [_] = views.iter().map(View::net).collect::<Vec<_>>().leak();
+    let names = it.nets.iter().map(|it| it.0.as_str());
+    let components = names.zip(nets).map(|(name, net)| Component { name, net });
+    System {
+        name: &it.name,
+        doc: &it.doc,
+        components: components.collect::<Vec<_>>().leak(),
+        links: &it.links,
+        bindings: &it.bindings,
+        clears: &it.clears,
+    }
+}
+
+/// Each way to break one line, link or shared place of the supervisors of a small robot. Those that
+/// break no requirement change what nothing is required of: an output that nobody hears, a place
+/// that two lines read alike.
+#[test]
+#[ignore = "a minute: CI runs it"]
+fn mutants_of_a_robots_supervisors_break_a_requirement() {
+    let robot = Robot::parse("scout.toml", SCOUT).unwrap_or_else(|it| panic!("{it}"));
+    let made = lent(system(&robot));
+    let own = made.components.iter().take_while(|it| it.name != "faults").count() as u16;
+    let (mut all, mut kept) = (0, Vec::new());
+    for it in mutants(made, own) {
+        let Ok(rounds) = rounds(&it.system) else { continue };
+        all += 1;
+        if requirements::of(&robot).iter().all(|it| holds(&rounds, it)) {
+            kept.push(format!("{}: {}", it.kind, it.name));
+        }
+    }
+    assert_eq!((all, all - kept.len()), (0, 0), "{}", kept.join("\n"));
 }
 
 /// Changes the lines of a net that begin so.

@@ -10,7 +10,6 @@ mod facts;
 mod growth;
 mod random;
 mod reading;
-mod recovery;
 pub(crate) mod regions;
 pub(crate) mod replay;
 mod response;

@@ -1,12 +1,13 @@
 //! A row, wherever it is from: a table of TOML or a line of comma-separated values.
 
 use super::amount::thousandths;
-use crate::cotama::{Label, Persistence, Severity};
+use crate::fmeca::Label;
 use crate::fmeca::analysis::Mode;
 use crate::fmeca::set::Set;
 use crate::missions::reader::fields::{Fields, Reported, Sink};
 use crate::missions::{Diagnostic, Spanned};
 use crate::names::{quoted, unknown};
+use crate::severity::{Persistence, Severity};
 use cotama_core::text::marked;
 use std::ops::Range;
 

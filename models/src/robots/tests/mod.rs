@@ -3,7 +3,6 @@ mod settings;
 
 use super::supervisors::{OwnedSystem, system, word};
 use super::{Decision, EMBEDDED, Robot, Situation, Where, decide, embedded};
-use crate::cotama::{self, Class, FailureMode, Loss, Losses, is_settled, judge};
 use cotama_core::net::owned::OwnedNet;
 use std::collections::BTreeSet;
 
@@ -97,94 +96,4 @@ fn losses_that_begin_with_the_same_part_have_names_of_their_own() {
     let names: Vec<_> = robot.losses.losses.iter().map(|it| it.name.as_str()).collect();
     assert_eq!(names[4..7], ["drives", "lift", "drives_LOD1"]);
     system(&robot).with(|system| assert_eq!(system.defect(), None));
-}
-
-/// A loss of the delivery as its supervisors tell losses apart, and the same of its file.
-const SAME_LOSSES: [(Loss, &str); 6] = [
-    (Loss::Avoidance, "DVZ"),
-    (Loss::Smz, "SMZ"),
-    (Loss::Mcl, "MCL"),
-    (Loss::Sonar, "sonar_arrays"),
-    (Loss::Camera, "camera"),
-    (Loss::Wifi, "WiFi_card"),
-];
-
-/// The situation of the delivery's supervisors where a configuration of its file runs.
-fn as_delivery(at: Where, robot: &Robot) -> cotama::Situation {
-    use cotama::{local, path_following, teleoperation};
-    let rest = cotama::Situation::AT_REST;
-    let local = |local| cotama::Situation { local, ..rest };
-    let following = |following| cotama::Situation { following, ..local(local::State::Following) };
-    let driven = |it| cotama::Situation { teleoperation: it, ..local(local::State::Teleoperated) };
-    let Where::Runs { configuration, .. } = at else {
-        return if at == Where::Rests { rest } else { local(local::State::HandOver) };
-    };
-    match robot.configurations[configuration].name.as_str() {
-        "PP" => local(local::State::Planning),
-        "PF.OPT" => following(path_following::State::Optimal),
-        "PF.DVZ" => following(path_following::State::Reactive),
-        "PF.ODO" => following(path_following::State::Odometric),
-        "PF.DEG" => following(path_following::State::Degraded),
-        "TP" => local(local::State::Teleprogrammed),
-        "TO.FULL" => driven(teleoperation::State::Full),
-        "TO.DEG" => driven(teleoperation::State::Degraded),
-        other => panic!("{other}"),
-    }
-}
-
-/// The decision of the delivery's two rules on a failure, as a class, where every earlier loss is
-/// answered; `None` elsewhere.
-fn by_delivery(mode: FailureMode, situation: cotama::Situation) -> Option<Class> {
-    let report = mode.rule().report?;
-    let severity = mode.severity(situation.mode());
-    is_settled(report, situation).then(|| judge(report, severity, situation).class())
-}
-
-#[test]
-fn the_delivery_from_its_file_decides_as_its_rules_do() {
-    let robot = Robot::shipped("p3dx-delivery").unwrap();
-    let (mut same, mut settings, mut asked_already) = (0, 0, 0);
-    for (number, report) in robot.losses.reports.iter().enumerate() {
-        let id = &robot.failures[report.failures[0]].id;
-        let mode = FailureMode::named(id.split('.').next().unwrap()).unwrap();
-        let sets =
-            places(&robot).into_iter().flat_map(|it| (0_u32..64).map(move |set| (it.0, set)));
-        for (at, set) in sets {
-            let known = SAME_LOSSES.iter().enumerate().filter(|it| set >> it.0 & 1 == 1);
-            let known: Vec<_> = known.map(|it| it.1).collect();
-            let losses = Losses::of(&known.iter().map(|it| it.0).collect::<Vec<_>>());
-            let position = |name| robot.losses.losses.iter().position(|it| it.name == name);
-            let lost = known.iter().fold(0, |all, it| all | 1 << position(it.1).unwrap());
-            let situation = cotama::Situation { lost: losses, ..as_delivery(at, &robot) };
-            let Some(rules) = by_delivery(mode, situation) else { continue };
-            let own = match decide(&robot, number, Situation { at, lost }) {
-                Decision::Record => Class::Record,
-                Decision::Adapt => Class::Adapter,
-                Decision::Ask => Class::Local,
-                Decision::Stop => Class::Global,
-            };
-            match (rules, own, at) {
-                _ if rules == own => same += 1,
-                // A setting of a module changes there, and as much of the speed is left.
-                (Class::Adapter, Class::Record, Where::Runs { sub_objective, .. }) => {
-                    let set = report.sets.as_ref().unwrap_or_else(|| panic!("{id} {at:?}"));
-                    let of = &robot.sub_objectives[sub_objective];
-                    let holds = set.mode.is_none_or(|it| it == of.mode);
-                    let rules = mode.rule().adjustment.map(|it| it.effect(situation.mode()).speed);
-                    if of.moves {
-                        assert_eq!(
-                            if holds { set.speed } else { 1_000 },
-                            rules.unwrap_or(1_000),
-                            "{id} {at:?}"
-                        );
-                    }
-                    settings += 1;
-                }
-                // The operator is asked once.
-                (Class::Local, Class::Record, Where::Waits) => asked_already += 1,
-                _ => panic!("{id} {at:?} {losses}: {own:?}, not {rules:?}"),
-            }
-        }
-    }
-    assert_eq!((same, settings, asked_already), (8_412, 976, 352));
 }

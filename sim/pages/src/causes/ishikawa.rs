@@ -3,8 +3,8 @@
 //! 2010).
 
 use super::scene::{Face, Group, Place, Scene};
-use cotama_models::cotama::Severity;
 use cotama_models::fmeca::{Analysis, Mode, Rib};
+use cotama_models::severity::Severity;
 
 /// The space around a diagram, and between things that must not touch.
 const MARGIN: i64 = 14;
@@ -269,7 +269,7 @@ mod tests {
     }
 
     fn scenes() -> Vec<Scene> {
-        let robot = Analysis::of_the_robot();
+        let robot = Analysis::shipped("p3dx-delivery").unwrap();
         let diagrams = robot.functions().into_iter().map(|it| diagram(&robot, it));
         diagrams.chain([legend(&robot, 200), legend(&robot, 900)]).collect()
     }
@@ -303,7 +303,7 @@ mod tests {
     #[test]
     fn every_failure_mode_is_drawn_once() {
         let scenes = scenes();
-        for mode in Analysis::of_the_robot().modes() {
+        for mode in Analysis::shipped("p3dx-delivery").unwrap().modes() {
             let drawn =
                 scenes.iter().flat_map(Scene::texts).filter(|(text, _)| *text == mode.id).count();
             assert_eq!(drawn, 1, "{}", mode.id);

@@ -4,7 +4,7 @@
 use super::view::View;
 use crate::format::{count, grouped, joules, metres, moment, percent, seconds};
 use cotama_core::text::markup;
-use cotama_models::cotama::Class;
+use cotama_models::severity::Class;
 use cotama_sim::run::Outcome;
 use cotama_sim::story::Chain;
 use cotama_sim::trace::{End, Event, Occurrence, Plan};

@@ -8,7 +8,6 @@ use super::view::View;
 use crate::axis::{Layout, NARROW, WIDE, draw_tick_labels, tick_label, ticks};
 use crate::format::{clock, metres, moment, seconds};
 use crate::svg::{Svg, fixed};
-use cotama_models::cotama::Mode;
 use cotama_sim::trace::{Record, Sample};
 use std::fmt::Write;
 
@@ -52,19 +51,10 @@ pub(super) fn section(view: &View<'_>) -> String {
 fn close(view: &View<'_>, whole: Span) -> Option<Span> {
     let (first, last) = (view.points.first()?.t_us, view.points.last()?.t_us);
     let room = (last - first) / 12 + 1_000_000;
-    let to_us = leaving(view, last).saturating_add(room).min(whole.to_us);
+    let to_us = last.saturating_add(room).min(whole.to_us);
     let from_us = first.saturating_sub(room);
     let is_short = to_us.saturating_sub(from_us) < whole.to_us / 3 * 2;
     (view.points.len() > 1 && is_short).then_some(Span { from_us, to_us })
-}
-
-/// When the mode that the last point led to was left again.
-fn leaving(view: &View<'_>, from_us: u64) -> u64 {
-    let rests = view.trace.records.iter().find_map(|it| match it {
-        Record::Configuration(it) if it.t_us > from_us && it.mode == Mode::Rest => Some(it.t_us),
-        _ => None,
-    });
-    rests.unwrap_or(from_us)
 }
 
 /// A part of the time of a run, in µs; not empty.
@@ -159,9 +149,7 @@ fn panel(all: &mut Svg, view: &View<'_>, time: Time, top: f64, whole: bool, ever
     let nets = Nets::of(view.mission.as_ref().ok());
     let configured = |mode: bool| {
         stretches(view, time, &nets, move |it| match it {
-            Record::Configuration(it) if mode => {
-                Some(if it.mode == Mode::Rest { "" } else { it.mode.name() })
-            }
+            Record::Configuration(it) if mode => Some(it.mode.name()),
             Record::Configuration(it) => Some(it.configuration.as_deref().unwrap_or("")),
             _ => None,
         })

@@ -83,7 +83,7 @@ impl Kind {
     /// The supervisors of a robot without a task to which these reports were told before: what is
     /// lost stays known.
     pub(super) fn at_rest(&self, told: &[usize]) -> Supervisors {
-        let (mut level, none) = (self.at_rest.clone(), Cause(0));
+        let (mut level, none) = (self.at_rest, Cause(0));
         for &report in told {
             let loss = self.robot.losses.reports.get(report).and_then(|it| it.loss);
             let Some(loss) = loss else { continue };

@@ -3,13 +3,14 @@
 use super::World;
 use crate::record::Recorder;
 use crate::run::Reason;
-use crate::trace::supervised::{Configured, Decision, Diagnosis, Exposure, Failure, Fired, Told};
+use crate::trace::supervised::{
+    Autonomy, Configured, Decision, Diagnosis, Exposure, Failure, Fired, Told,
+};
 use crate::trace::{Activity, End, Record, Request, Sample};
 use cotama_core::net::TransitionId;
 use cotama_core::player::Program;
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
-use cotama_models::cotama::Mode as Autonomy;
 use cotama_models::level::Cause;
 use cotama_models::robots::{self, Mode, Where};
 use cotama_models::severity::Class;
@@ -70,7 +71,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let (t_us, x_mm) = self.here();
         let failure = u16::try_from(self.run.conduct.len()).unwrap_or(u16::MAX);
         let (mode, during) =
-            (self.failure_id(number), self.robot.name_of(self.level().place()).to_owned());
+            (self.failure_id(number), self.robot.place_name(self.level().place()).to_owned());
         let what = self.robot.failures.get(number).map(|it| match it.item.as_str() {
             "" => it.mode.clone(),
             item => format!("{item}, {}", it.mode),

@@ -20,7 +20,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         self.run.rounds += 1;
         self.note_all(recording, &mut seen);
         self.follow();
-        let (told, cause) = match self.decider.next() {
+        let (told, cause) = match self.decider.next_untold() {
             Some((told, cause)) => (Some(told), cause),
             None => self.says(),
         };

@@ -1,7 +1,7 @@
 //! The roots of the decisional level as one component, from flags to requests, on the supervisors
 //! that the robot's file prints.
 //!
-//! It comes as its caller can leave it at worst: with any marking, any tables and any time.
+//! A decider comes as its caller can leave it at worst: with any marking, any tables and any time.
 
 use cotama_core::player::{Firing, Observer};
 use cotama_core::system::Of;
@@ -89,6 +89,11 @@ fn root_decider_see(decider: &mut Decider<Careful>, now: Millis, shown: u64, bro
 #[unsafe(no_mangle)]
 fn root_decider_round(decider: &mut Decider<Careful>, now: Millis, seen: &mut Seen) -> u64 {
     decider.round(now, seen)
+}
+
+#[unsafe(no_mangle)]
+fn root_decider_next(decider: &mut Decider<Careful>) -> Option<(Told, Cause)> {
+    decider.next_untold()
 }
 
 #[unsafe(no_mangle)]

@@ -116,5 +116,13 @@ roots! {
     machine ace_accuracy: cotama_models::nets::ace::accuracy;
     machine alive: cotama_models::nets::ace::robot::alive;
     machine goal: cotama_models::nets::ace::robot::goal;
+    machine contextual: cotama_models::nets::by_hand::contextual;
+    machine faults: cotama_models::nets::by_hand::faults;
+    machine global: cotama_models::nets::by_hand::global;
+    machine local: cotama_models::nets::by_hand::local;
+    machine observation: cotama_models::nets::by_hand::observation;
+    machine operator: cotama_models::nets::by_hand::operator;
+    machine path_following: cotama_models::nets::by_hand::path_following;
+    machine teleoperation: cotama_models::nets::by_hand::teleoperation;
     machine permit: cotama_models::level::permit;
 }

@@ -143,6 +143,8 @@ roots! {
     ace_robot: cotama_models::nets::ace::robot {
         navigation vision interaction traversability goal behaviour accuracy alive; selection
     }
+    delivery: cotama_models::nets::by_hand::delivery { cs faults gom gs ls operator permit pf to }
+    supervision: cotama_models::nets::by_hand::supervision { cs gom gs ls pf to }
     p3dx_delivery: cotama_printed::system {
         gs ls following teleoperation permit gom cs faults operator
     }

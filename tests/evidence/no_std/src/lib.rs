@@ -1,5 +1,5 @@
-//! The core as firmware links it: allocators, front and monitor on the tables of the patrol, teams of
-//! eight robots, and the decisional level of the delivery.
+//! The core as firmware links it: allocators, front and monitor on the tables of the patrol, teams
+//! of eight robots, and the decisional level of the delivery.
 //!
 //! This crate has a panic handler, so it does not build when anything below it needs `std`, and no
 //! global allocator, so it does not build when anything below it needs the heap. `check.sh` builds

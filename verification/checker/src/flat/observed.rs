@@ -31,7 +31,7 @@ impl Rounds {
     /// When a condition is no formula about one marking, or the net would be too large.
     ///
     /// ```
-    /// use cotama_models::cotama::delivery;
+    /// use cotama_models::nets::by_hand::delivery;
     /// use cotama_verification::flat::{self, Looks};
     ///
     /// let mut rounds = flat::rounds(&delivery::SYSTEM)?;

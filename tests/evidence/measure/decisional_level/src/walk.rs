@@ -38,8 +38,8 @@ impl Walk {
         self.below(most) == 0
     }
 
-    /// Draws the news of a period: in one of twelve a failure shows all of its flags, in one of four
-    /// some go back, in one of 32 a module does not work.
+    /// Draws the news of a period: in one of 12 a failure shows all of its flags, in one of 4 some
+    /// go back, in one of 32 a module does not work.
     pub fn next(&mut self, decider: &Decider<Careful>) -> Period {
         let mut seen = Perceived { works: u64::MAX, ..Perceived::default() };
         if self.one_in(12) {

@@ -10,7 +10,7 @@ use cotama_property::{Atom, Formula, Linear};
 /// explored from nothing.
 ///
 /// ```
-/// use cotama_models::cotama::delivery;
+/// use cotama_models::nets::by_hand::delivery;
 /// use cotama_verification::check::{Checker, Model, Options};
 /// use cotama_verification::flat::{self, Looks};
 /// use cotama_verification::property;

@@ -241,28 +241,6 @@ net! {
 }
 
 net! {
-    /// The adapter of path following where modules may return: it goes up again when it is told so
-    /// and what it needs is there. Without SMZ it waits for the next path. Assumed: the paper
-    /// states no such transition.
-    pub mod recovering_path_following extends path_following {
-        events {
-            /// More is available again than it uses.
-            adapt_better,
-        }
-        outputs {
-            /// There is avoidance again.
-            lift_limit,
-        }
-        transitions {
-            u1 on adapt_better [sonar & mcl & smz]: Degraded => Optimal emit lift_limit;
-            u2 on adapt_better [sonar & !mcl & smz]: Degraded => Odometric emit lift_limit;
-            u3 on adapt_better [sonar & mcl]: Odometric => Optimal;
-        }
-        ignore { adapt_better in Off; }
-    }
-}
-
-net! {
     /// Adapter supervisor of teleoperation: with avoidance, or without.
     pub mod teleoperation {
         places {
@@ -301,21 +279,5 @@ net! {
             deadlock_free;
             deterministic;
         }
-    }
-}
-
-net! {
-    /// The adapter of teleoperation where modules may return: with avoidance again. Assumed.
-    pub mod recovering_teleoperation extends teleoperation {
-        events {
-            /// Avoidance is available again.
-            adapt_better,
-        }
-        outputs {
-            /// There is avoidance again.
-            lift_limit,
-        }
-        transitions { b4 on adapt_better [sonar]: Degraded => Full emit lift_limit; }
-        ignore { adapt_better in Off; }
     }
 }

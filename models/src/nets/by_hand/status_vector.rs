@@ -82,30 +82,3 @@ net! {
         }
     }
 }
-
-net! {
-    /// The observation module where modules may return: what was lost is available again when it is
-    /// said to be sound, and what it needs is. Assumed: the paper states no such transition.
-    /// Whoever says so holds it back for long enough; see [`recovery`](crate::cotama::recovery).
-    pub mod recovering_observation extends observation {
-        flags {
-            /// Localisation was too slow at the floor of its particles, and counts as lost for
-            /// good.
-            given_up: false,
-        }
-        events {
-            /// The sonars are sound; then what needs them may be, and is read after them.
-            sonar_sound,
-            avoidance_sound, mcl_sound,
-        }
-        outputs { sonar_back, avoidance_back, mcl_back }
-        transitions {
-            sonar_back on sonar_sound [!sonar]:
-                Watching => Watching do sonar = true emit sonar_back;
-            avoidance_back on avoidance_sound [!avoidance & sonar]:
-                Watching => Watching do avoidance = true emit avoidance_back;
-            mcl_back on mcl_sound [!mcl & sonar & !given_up]:
-                Watching => Watching do mcl = true emit mcl_back;
-        }
-    }
-}

@@ -85,27 +85,3 @@ net! {
         laws { left_to_checker; }
     }
 }
-
-net! {
-    /// The contextual supervisor where modules may return: what is available again is for the
-    /// adapter that runs without it. In every other place it is recorded only, since an adapter
-    /// that starts looks at what is available. Assumed.
-    pub mod recovering_contextual extends contextual {
-        shared { given_up }
-        events { sonar_back, avoidance_back, mcl_back }
-        outputs { adapt_better, adapt_better_teleoperation }
-        instead {
-            /// At the floor of particles localisation counts as lost.
-            slow3 on slow [reduced & level < 1]: Ready => Ready
-                do mcl = false & given_up = true emit adapt_mcl;
-            slow5 on slow [reactive & level < 1]: Ready => Ready
-                do mcl = false & given_up = true emit adapt_mcl;
-        }
-        transitions {
-            better1 on sonar_back [degraded]: Ready => Ready emit adapt_better;
-            better2 on avoidance_back [teleoperated & !avoiding]:
-                Ready => Ready emit adapt_better_teleoperation;
-            better3 on mcl_back [odometric]: Ready => Ready emit adapt_better;
-        }
-    }
-}

@@ -73,33 +73,6 @@ net! {
 }
 
 net! {
-    /// Everything that may fail, at any time; sonars, the operator's avoidance and localisation may
-    /// return, at any time and any number of times, so that what holds here holds for every
-    /// [`recovery`](crate::cotama::recovery) that holds them back.
-    pub mod recovering_faults extends faults {
-        events { regain_sonar, regain_avoidance, regain_mcl }
-        outputs { sonar_sound, avoidance_sound, mcl_sound }
-        transitions {
-            sonar1 on regain_sonar [!sonar & avoidance & mcl]:
-                Ready => Ready do sonar = true emit sonar_sound & avoidance_sound & mcl_sound;
-            sonar2 on regain_sonar [!sonar & avoidance & !mcl]:
-                Ready => Ready do sonar = true emit sonar_sound & avoidance_sound;
-            sonar3 on regain_sonar [!sonar & !avoidance & mcl]:
-                Ready => Ready do sonar = true emit sonar_sound & mcl_sound;
-            sonar4 on regain_sonar [!sonar & !avoidance & !mcl]:
-                Ready => Ready do sonar = true emit sonar_sound;
-            /// Without sonars nobody can tell yet.
-            avoidance1 on regain_avoidance [!avoidance & !sonar]:
-                Ready => Ready do avoidance = true;
-            avoidance2 on regain_avoidance [!avoidance & sonar]:
-                Ready => Ready do avoidance = true emit avoidance_sound;
-            mcl1 on regain_mcl [!mcl & !sonar]: Ready => Ready do mcl = true;
-            mcl2 on regain_mcl [!mcl & sonar]: Ready => Ready do mcl = true emit mcl_sound;
-        }
-    }
-}
-
-net! {
     /// The operator: answers as long as the link works; gives up, or is silent for too long, at any
     /// time.
     pub mod operator {

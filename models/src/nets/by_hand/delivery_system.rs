@@ -1,12 +1,9 @@
 //! The supervisors as they are shipped, composed; and the same where modules may return.
 
-use super::decision_table::{contextual, recovering_contextual};
-use super::hierarchy::{
-    global, local, path_following, recovering_path_following, recovering_teleoperation,
-    teleoperation,
-};
-use super::status_vector::{observation, recovering_observation};
-use super::surroundings::{faults, operator, recovering_faults};
+use super::decision_table::contextual;
+use super::hierarchy::{global, local, path_following, teleoperation};
+use super::status_vector::observation;
+use super::surroundings::{faults, operator};
 use crate::level::permit;
 use cotama_core::system;
 
@@ -132,31 +129,5 @@ system! {
             operator.teleprogrammed = ls.Teleprogrammed;
             operator.teleoperated = ls.Teleoperated;
         }
-    }
-}
-
-system! {
-    /// COTAMA's decisional level where sonars, the operator's avoidance and localisation may
-    /// return: then adapters go up again. Assumed, and off unless a mission asks for it: the paper
-    /// states no such transition. The rest is [`delivery`].
-    pub mod recovering extends delivery {
-        instead {
-            pf: recovering_path_following,
-            to: recovering_teleoperation,
-            gom: recovering_observation,
-            cs: recovering_contextual,
-            faults: recovering_faults,
-        }
-        links {
-            cs.adapt_better => pf.adapt_better mail 1;
-            cs.adapt_better_teleoperation => to.adapt_better mail 1;
-            gom.sonar_back => cs.sonar_back mail 1;
-            gom.avoidance_back => cs.avoidance_back mail 1;
-            gom.mcl_back => cs.mcl_back mail 1;
-            faults.sonar_sound => gom.sonar_sound mail 1;
-            faults.avoidance_sound => gom.avoidance_sound mail 1;
-            faults.mcl_sound => gom.mcl_sound mail 1;
-        }
-        shared { cs.given_up = gom.given_up; }
     }
 }
