@@ -1,10 +1,9 @@
 //! The requirements of any robot's supervisors, as questions to the checker.
 //!
-//! Numbers follow the supervisors, as in [`REQUIREMENTS`](crate::cotama::REQUIREMENTS) of the
-//! shipped delivery: GS global, LS local, AS adapters, CS contextual. Texts speak of
+//! Numbers follow the supervisors: GS global, LS local, AS adapters, CS contextual. Texts speak of
 //! [`system`](super::supervisors::system) as one net that acts in rounds.
 
-use super::supervisors::{Step, adapter, cannot_run, place_of, word};
+use super::supervisors::{Step, adapter, cannot, cannot_run, place_of, word};
 use super::{Mode, Robot, SubObjective};
 use crate::severity::Severity;
 
@@ -110,6 +109,7 @@ pub fn of_mission(robot: &Robot, steps: &[Step]) -> Vec<Requirement> {
         );
     }
     severe(robot, &mut ask);
+    reasons(robot, &mut ask);
     for it in robot.sub_objectives.iter().filter(|it| it.configurations.len() > 1) {
         adapters(robot, it, &mut ask);
     }
@@ -188,9 +188,15 @@ fn severe(robot: &Robot, ask: &mut Ask<'_>) {
             "AG fatal <= 2".to_owned(),
         );
     }
-    let hard = told(Severity::Hard);
-    let own: Vec<_> =
-        robot.sub_objectives.iter().map(|it| format!("ls.{}", word(&it.name))).collect();
+    let alone = places(robot, Some(Mode::Autonomous)).join(" | ");
+    let at_once = robot.losses.reports.iter().filter(|it| it.is_told_at_once());
+    let hard = at_once.filter(|it| it.autonomous >= Severity::Hard).map(|it| {
+        let flag = format!("gom.flag_{}.waiting", word(&it.name));
+        // Where the robot drives itself, it goes on doing so until it is stopped.
+        if it.operator >= Severity::Hard { flag } else { format!("{flag} & ({alone})") }
+    });
+    let hard: Vec<_> = hard.collect();
+    let own = places(robot, None);
     if hard.len() > fatal.len() {
         let told = hard.join(" | ");
         let hard = at_end("hard", &told, &format!("!({told})"), 1);
@@ -213,6 +219,64 @@ fn severe(robot: &Robot, ask: &mut Ask<'_>) {
             "AG answer <= 1".to_owned(),
         );
     }
+}
+
+/// The places of the sub-objectives of a mode, or of all.
+fn places(robot: &Robot, mode: Option<Mode>) -> Vec<String> {
+    let all = robot.sub_objectives.iter().filter(|it| mode.is_none_or(|mode| it.mode == mode));
+    all.map(|it| format!("ls.{}", word(&it.name))).collect()
+}
+
+/// Adds: who gives up ends the mission; and nothing ends it, or asks the operator, without a
+/// reason.
+fn reasons(robot: &Robot, ask: &mut Ask<'_>) {
+    let told = |least: Severity| {
+        let all = robot.losses.reports.iter();
+        let severe = all.filter(move |it| it.autonomous.max(it.operator) >= least);
+        severe.map(|it| format!("gom.flag_{}.waiting", word(&it.name)))
+    };
+    let refusal = robot.operator.map(|_| "cs.refusal.waiting".to_owned());
+    if let Some(refusal) = &refusal {
+        let watch = at_end("refused", refusal, "gs.Security | gs.Safe", 3);
+        ask(
+            "CS3".to_owned(),
+            "An operator who gives up, or is silent, ends the mission after two rounds.".to_owned(),
+            vec![watch],
+            "AG refused <= 2".to_owned(),
+        );
+    }
+    let helpless = cannot(robot, |lost| robot.can_ask(lost));
+    let ends: Vec<_> = told(Severity::Fatal).chain(refusal).collect();
+    let reason = at_end("reason", &or_never(&ends), "gs.Wait & gs.Safe", 1);
+    let or_helpless = helpless.map_or_else(String::new, |it| format!(" | {it}"));
+    ask(
+        "GS5".to_owned(),
+        "The mission ends only by something fatal, by the operator, or where nobody can be asked."
+            .to_owned(),
+        vec![reason],
+        format!("AG (gs.Security -> reason >= 1{or_helpless})"),
+    );
+    let hard: Vec<_> = told(Severity::Hard).collect();
+    let hard = or_never(&hard);
+    let hard = at_end("hard", &hard, &format!("!({hard})"), 1);
+    let stuck = robot.configurations.iter().enumerate().filter_map(|(number, _)| {
+        Some(format!(" | {} & ({})", place_of(robot, number), cannot_run(robot, number)?))
+    });
+    let stuck: String = stuck.collect();
+    let called = format!("ls.local_event.waiting & !(hard >= 1{stuck})");
+    let called = Watch { at_end: false, ..at_end("called", &called, &format!("!({called})"), 1) };
+    ask(
+        "CS4".to_owned(),
+        "The operator is called only by something hard, or where what runs cannot go on."
+            .to_owned(),
+        vec![hard, called],
+        "AG called = 0".to_owned(),
+    );
+}
+
+/// Any of these conditions; of none, one that never holds.
+fn or_never(all: &[String]) -> String {
+    if all.is_empty() { "gs.Wait & gs.Safe".to_owned() } else { all.join(" | ") }
 }
 
 /// One configuration at a time, and only worse ones until the sub-objective ends.

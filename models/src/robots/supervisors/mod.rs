@@ -85,8 +85,12 @@ fn told(robot: &Robot, failures: &[usize]) -> String {
 /// Returns the condition under which a configuration cannot run, as far as is known, in the
 /// language of properties; `None` if it always can.
 pub(super) fn cannot_run(robot: &Robot, it: usize) -> Option<String> {
-    let cannot = |lost: u32| robot.running(lost) >> it & 1 == 0;
-    let cases = cubes::cubes(robot.losses.all(), 0, &cannot);
+    cannot(robot, |lost| robot.running(lost) >> it & 1 == 1)
+}
+
+/// Returns the condition under which something cannot be done, as far as losses are known.
+pub(super) fn cannot(robot: &Robot, can: impl Fn(u32) -> bool) -> Option<String> {
+    let cases = cubes::cubes(robot.losses.all(), 0, &|lost| !can(lost));
     let cases = cases.into_iter().filter(|it| it.1).map(|(cube, _)| {
         let all = 0..robot.losses.losses.len();
         let all = all.filter_map(|loss| match (cube.lost >> loss & 1, cube.kept >> loss & 1) {
