@@ -122,10 +122,6 @@ pub(crate) fn shows(page: &str, answer: &Value) {
         let name = word(&probe["name"]);
         assert!(between(all, "<h3>Probes</h3>", "</table>").contains(name), "{name}");
     }
-    let case = &answer["diagnosability"]["ambiguous_case"]["text"];
-    for line in case.as_array().into_iter().flatten() {
-        assert!(text(all).contains(&word(line).replace('`', "")), "{line}");
-    }
 }
 
 #[test]
@@ -134,7 +130,7 @@ fn the_page_says_all_that_the_answer_says() {
     let answer = folder.cotama(&["fmeca", "--json"]).json(0);
     let page = folder.cotama(&["fmeca", "--format", "html"]).stdout;
     shows(&page, &answer);
-    assert_eq!(list(&answer["diagnosability"]["statuses"]).len(), 5);
+    assert_eq!(list(&answer["diagnosability"]["statuses"]).len(), 1);
 }
 
 #[test]

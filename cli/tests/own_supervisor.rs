@@ -118,7 +118,7 @@ fn a_gripper_grasps_again_under_a_local_supervisor_of_its_own() {
 
     let checked = folder.cotama(&["check", "own.toml", "--json"]).json(0);
     let results = checked["results"].as_array().unwrap();
-    assert!(results.len() == 10 && results.iter().all(|it| it["verdict"] == "true"), "{checked}");
+    assert!(results.len() == 13 && results.iter().all(|it| it["verdict"] == "true"), "{checked}");
     let run = folder.cotama(&["run", "fetch.toml", "--no-report", "--json", "--trace", "f.jsonl"]);
     assert_eq!(run.json(0)["operator_requests"], 0);
     assert!(folder.read("f.jsonl").contains("\"transition\":\"again\""));

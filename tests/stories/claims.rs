@@ -35,17 +35,6 @@ fn all() -> BTreeMap<String, u64> {
     count_harnesses(&mut all);
     count_mistakes(&mut all);
     all.extend(Claims::read().counts());
-    let mutants = root().join("verification/tests/golden/rounds/mutants.txt");
-    let mutants = fs::read_to_string(mutants).expect("what each mutant of the delivery breaks");
-    for (name, word) in [
-        ("", " - "),
-        (".breaking", " - breaks "),
-        (".refused", " - refused: "),
-        (".harmless", " - harmless: "),
-    ] {
-        let count = mutants.lines().filter(|it| it.contains(word)).count();
-        all.insert(format!("mutants.delivery{name}"), count as u64);
-    }
     all
 }
 
@@ -135,7 +124,7 @@ fn a_figure_of_a_page_is_the_one_that_a_test_asserts() {
         assert!(shown.contains(name), "no page shows `{name}`");
         let reads = [format!("\"{name}\""), format!("figure {name})")];
         let is_asserted = reads.iter().any(|it| asserted.contains(it));
-        let counted = ["claims.", "mistakes", "mutants.", "proofs."];
+        let counted = ["claims.", "mistakes", "proofs."];
         let is_counted = counted.iter().any(|it| name.starts_with(it));
         assert!(is_asserted || is_counted, "no test asserts `{name}`");
     }

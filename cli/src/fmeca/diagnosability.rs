@@ -6,8 +6,8 @@ use crate::answers::fmeca::{
 use cotama_models::fmeca::{Analysis, Mode, Status};
 use cotama_models::robots::{Observer, Parts, Robot, members};
 
-/// Every status, and every probe: of a robot the sound one, and each single loss that leaves it a
-/// configuration in which it moves by itself.
+/// Every status, and every probe: of a robot the sound one, and each single loss that leaves it
+/// moving and takes something that an observer needs.
 pub(crate) fn of<'a>(analysis: &'a Analysis, robot: Option<&'a Robot>) -> Diagnosability<'a> {
     let unseen = |mode: &Mode| match analysis.names(&mode.sometimes).as_slice() {
         [] => "it raises no flag, and no reason is stated".to_owned(),
@@ -15,7 +15,8 @@ pub(crate) fn of<'a>(analysis: &'a Analysis, robot: Option<&'a Robot>) -> Diagno
     };
     let sound = status(analysis, &analysis.sound(), unseen);
     let losses = robot.into_iter().flat_map(|robot| {
-        let all = (0..robot.losses.losses.len()).filter(|it| moves(robot, *it));
+        let all = 0..robot.losses.losses.len();
+        let all = all.filter(|it| moves(robot, *it) && blinds(robot, *it));
         all.map(|it| after(analysis, robot, it))
     });
     Diagnosability {
@@ -28,6 +29,12 @@ pub(crate) fn of<'a>(analysis: &'a Analysis, robot: Option<&'a Robot>) -> Diagno
 fn moves(robot: &Robot, loss: usize) -> bool {
     let own = robot.sub_objectives.iter().enumerate().filter(|it| it.1.moves);
     own.into_iter().any(|it| robot.best(it.0, 1 << loss).is_some())
+}
+
+/// Whether an observer lacks something then.
+fn blinds(robot: &Robot, loss: usize) -> bool {
+    let gone = robot.losses.losses.get(loss).map_or(0, |it| it.modules);
+    robot.observers.iter().any(|it| it.needs.modules & gone != 0)
 }
 
 /// The robot after a loss.

@@ -28,11 +28,13 @@ pub(super) fn section(page: &str, robot: Option<&Robot>) -> String {
         texts.flat_map(|it| it.split(|it: char| !(it.is_alphanumeric() || it == '-'))).collect();
     let modules = robot.into_iter().flat_map(|it| &it.modules);
     let modules = modules.map(|it| (it.name.as_str(), it.title.as_str()));
+    let observers = robot.into_iter().flat_map(|it| &it.observers);
+    let observers = observers.map(|it| (it.name.as_str(), it.title.as_str()));
     let mut html = String::from(
         "<section id=\"abbreviations\">\n<h2>Abbreviations on this page</h2>\n<p class=\"note\">\
          Ids of failure modes lead to their rows.</p>\n<dl>\n",
     );
-    let known = WORDS.into_iter().chain(modules);
+    let known = WORDS.into_iter().chain(modules).chain(observers);
     for (name, meaning) in known.filter(|it| words.contains(it.0)) {
         let meaning = markup(meaning.trim().trim_end_matches('.'));
         let _ = writeln!(html, "<div><dt>{name}</dt><dd>{meaning}</dd></div>");

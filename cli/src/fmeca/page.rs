@@ -240,7 +240,7 @@ fn diagnosability(page: &mut String, it: &Diagnosability<'_>) {
          could be added.</p>"
     );
     for row in &it.statuses {
-        status(page, row, it.statuses.len() > 1);
+        status(page, row, it.statuses.len() > 1, it.probes.is_empty());
     }
     probes(page, it);
     page.push_str("</section>\n");
@@ -267,7 +267,7 @@ fn probes(page: &mut String, it: &Diagnosability<'_>) {
     page.push_str("</tbody>\n</table></div>\n");
 }
 
-fn status(page: &mut String, row: &StatusRow<'_>, several: bool) {
+fn status(page: &mut String, row: &StatusRow<'_>, several: bool, no_probes: bool) {
     let mut said = String::new();
     if several {
         put!(page, "<h3>Status: {}</h3>", row.status);
@@ -282,21 +282,23 @@ fn status(page: &mut String, row: &StatusRow<'_>, several: bool) {
     };
     put!(page, "<p>{said}{}.{impossible}</p>", detected(row));
     if !row.pairs.is_empty() {
-        page.push_str(
-            "<div class=\"scroll\"><table>\n<thead><tr><th>Alike<th>Shared flags\
-            <th>Separated by</tr></thead>\n<tbody>\n",
+        let head = if no_probes { "" } else { "<th>Separated by" };
+        put!(
+            page,
+            "<div class=\"scroll\"><table>\n<thead><tr><th>Alike<th>Shared flags{head}</tr>\
+             </thead>\n<tbody>"
         );
         for pair in &row.pairs {
             let probes = match pair.probes.as_slice() {
-                [] => "no probe".to_owned(),
-                probes => probes.join(", or "),
+                _ if no_probes => String::new(),
+                [] => "<td>no probe".to_owned(),
+                probes => format!("<td>{}", markup(&probes.join(", or "))),
             };
             put!(
                 page,
-                "<tr><th scope=\"row\">{}<td>{}<td>{}</tr>",
+                "<tr><th scope=\"row\">{}<td>{}{probes}</tr>",
                 links(&pair.shared.modes),
                 markup(&shared(&pair.shared.flags, &pair.shared.flags_optional)),
-                markup(&probes)
             );
         }
         page.push_str("</tbody>\n</table></div>\n");
@@ -304,7 +306,10 @@ fn status(page: &mut String, row: &StatusRow<'_>, several: bool) {
     if let Some(more) = left_out(row) {
         put!(page, "<p>{}.</p>", more);
     }
-    put!(page, "<p>Least set: {}.</p>\n<dl>", markup(&against(row)));
+    if !no_probes {
+        put!(page, "<p>Least set: {}.</p>", markup(&against(row)));
+    }
+    page.push_str("<dl>\n");
     for unseen in &row.undetectable {
         put!(
             page,

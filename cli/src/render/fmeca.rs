@@ -244,7 +244,7 @@ fn list(rows: &[FmecaRow<'_>], longest: usize, width: usize) -> String {
 pub(crate) fn diagnosability(it: &Diagnosability<'_>, width: usize) -> String {
     let mut text = String::new();
     for row in &it.statuses {
-        text += &status(row, width);
+        text += &status(row, it.probes.is_empty(), width);
         text.push('\n');
     }
     if !it.probes.is_empty() {
@@ -314,7 +314,8 @@ pub(crate) fn left_out(row: &StatusRow<'_>) -> Option<String> {
     (!said.is_empty()).then(|| said.join("; "))
 }
 
-fn status(row: &StatusRow<'_>, width: usize) -> String {
+/// One status; without any probe nothing is said of them.
+fn status(row: &StatusRow<'_>, no_probes: bool, width: usize) -> String {
     let mut text = format!("{HEADING}{}{HEADING:#}\n", row.status);
     if !row.modules_unavailable.is_empty() {
         text += &wrapped(&format!("without {}", row.modules_unavailable.join(" ")), width, "  ");
@@ -327,17 +328,20 @@ fn status(row: &StatusRow<'_>, width: usize) -> String {
     for pair in &row.pairs {
         let shared = shared(&pair.shared.flags, &pair.shared.flags_optional);
         let probes = match pair.probes.as_slice() {
-            [] => "no probe separates them".to_owned(),
-            probes => format!("separated by {}", probes.join(", or ")),
+            [] if no_probes => String::new(),
+            [] => ": no probe separates them".to_owned(),
+            probes => format!(": separated by {}", probes.join(", or ")),
         };
         let both = pair.shared.modes.join(" ");
         text +=
-            &described(&format!("alike {both}"), 15, NOTICE, &format!("{shared}: {probes}"), width);
+            &described(&format!("alike {both}"), 15, NOTICE, &format!("{shared}{probes}"), width);
     }
     if let Some(more) = left_out(row) {
         text += &described("", 15, NOTICE, &more, width);
     }
-    text += &described("probes", 15, GOOD, &against(row), width);
+    if !no_probes {
+        text += &described("probes", 15, GOOD, &against(row), width);
+    }
     for unseen in &row.undetectable {
         text += &described(&format!("unseen {}", unseen.id), 15, BAD, &unseen.reason, width);
     }

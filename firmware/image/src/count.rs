@@ -16,6 +16,7 @@ use cotama_core::units::Millis;
 use cotama_models::missions::tables::patrol::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
 use cotama_models::missions::tables::{EMPTY, Rest, remaining};
 use cotama_models::nets::ace::selection;
+use cotama_models::nets::by_hand::local;
 use robot::control::{Control, PERIOD_MS};
 use robot::dice::Dice;
 use robot::guard::Guard;

@@ -23,7 +23,7 @@ impl Analysis {
     /// let csv = Analysis::shipped("p3dx-delivery").unwrap().to_csv();
     /// assert_eq!(csv.lines().next(), Some(COLUMNS));
     /// let again = Analysis::parse_csv("robot.csv", &csv).unwrap();
-    /// assert_eq!(again.modes().len(), 40);
+    /// assert_eq!(again.modes().len(), 46);
     /// ```
     #[must_use]
     pub fn to_csv(&self) -> String {

@@ -1,6 +1,6 @@
-//! How well a fact of the reconstruction is known.
+//! Sources of facts.
 
-/// The source of a fact. No fact of this module is without one.
+/// The source of a fact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Label {
     /// Said in a publication: Durand et al., TAROS 2010, where no other work is named.

@@ -14,7 +14,7 @@ impl Analysis {
     /// ```
     /// use cotama_models::fmeca::Analysis;
     /// let rows = Analysis::shipped("p3dx-delivery").unwrap().to_rows();
-    /// assert_eq!(rows.matches("[[failure]]").count(), 40);
+    /// assert_eq!(rows.matches("[[failure]]").count(), 46);
     /// assert!(rows.starts_with("[[failure]]\nid = \"SON1\"\n"));
     /// ```
     #[must_use]

@@ -1,5 +1,6 @@
 //! Reactions that change no configuration: settings while they hold, and losses that come back.
 
+use super::sets::{bits, losses_of, set_of};
 use super::tables::{MAX_LOSSES, MAX_REPORTS, Setting, Tables};
 use super::told::Mode;
 use crate::severity::Persistence;
@@ -33,10 +34,6 @@ impl Default for Adapted {
     }
 }
 
-fn bits(set: u64) -> impl Iterator<Item = usize> {
-    (0..64).filter(move |it| set >> it & 1 == 1)
-}
-
 impl Adapted {
     /// The setting of a report is made.
     pub fn set(&mut self, report: usize, now: Millis) {
@@ -68,7 +65,7 @@ impl Adapted {
     /// Returns the reports, a bit each, whose settings hold.
     pub fn holding(&self, tables: &Tables<'_>, now: Millis) -> u64 {
         let holds = |it: &usize| now < self.end(tables, *it);
-        bits(self.made).filter(holds).fold(0, |set, it| set | 1 << it)
+        set_of(bits(self.made).filter(holds))
     }
 
     /// Returns how much the settings that answer permanent failures leave of the speed of a robot
@@ -100,9 +97,8 @@ impl Adapted {
     /// Returns the losses, a bit each, of those known that have been over for long enough, and that
     /// nobody was told of yet.
     pub fn back(&mut self, tables: &Tables<'_>, known: u32, now: Millis) -> u32 {
-        let returns = tables.losses.iter().enumerate();
-        let returns = returns.filter(|it| it.0 < MAX_LOSSES && it.1.back.is_some());
-        let known = known & returns.fold(0, |set, it| set | 1 << it.0);
+        let returns = |it: &usize| tables.losses.get(*it).is_some_and(|it| it.back.is_some());
+        let known = known & losses_of((0..MAX_LOSSES).filter(returns));
         for it in bits(u64::from(known & !self.known)) {
             self.there.get_mut(it).into_iter().for_each(|it| *it = now);
         }
@@ -110,7 +106,7 @@ impl Adapted {
         self.told &= known;
         let over = self.over(known & !self.told);
         let long = over.filter(|it| now.0 >= it.1.0.saturating_add(SOUND_FOR.0));
-        long.fold(0, |set, it| set | 1 << it.0)
+        losses_of(long.map(|it| it.0))
     }
 
     /// The supervisors were told that a loss is over.

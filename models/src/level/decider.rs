@@ -2,8 +2,9 @@
 
 use super::adapted::Adapted;
 use super::diagnosis::{Rows, diagnose};
+use super::sets::bits;
 use super::supervisors::Level;
-use super::tables::{Act, MAX_LOSSES, MAX_REPORTS, Tables};
+use super::tables::{Act, Tables};
 use super::told::{Cause, Global, Mode, Told, Where};
 use super::untold::Untold;
 use cotama_core::net::EventId;
@@ -201,7 +202,7 @@ impl<'t, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
     pub fn see(&mut self, now: Millis, shown: u64, broken: u32) {
         self.adapted.see(shown, broken, now);
         let back = self.adapted.back(self.level.tables(), self.level.lost(), now);
-        for loss in (0..MAX_LOSSES).filter(|it| back >> it & 1 == 1) {
+        for loss in bits(u64::from(back)) {
             self.untold.push(Told::Back(loss), Cause(0));
         }
     }
@@ -246,7 +247,7 @@ impl<'t, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
 
     /// The settings of these reports are made.
     fn set(&mut self, now: Millis, reports: u64) {
-        for report in (0..MAX_REPORTS).filter(|it| reports >> it & 1 == 1) {
+        for report in bits(reports) {
             self.adapted.set(report, now);
         }
     }

@@ -20,6 +20,7 @@ mod diagnosis;
 mod motion;
 #[cfg(kani)]
 pub mod proofs;
+mod sets;
 mod supervisors;
 mod tables;
 mod told;

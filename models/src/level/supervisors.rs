@@ -1,6 +1,7 @@
 //! The supervisors of a robot at work: what they are told, and where they are.
 
-use super::tables::{Loss, MAX_LOSSES, Tables};
+use super::sets::losses_of;
+use super::tables::{MAX_LOSSES, Tables};
 use super::told::{Cause, Global, Told, Where};
 use cotama_core::net::PlaceId;
 use cotama_core::player::{Checked, Observer, Player, Program, RestoreError, Snapshot};
@@ -77,9 +78,9 @@ impl<'t, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
 
     /// Returns the losses that the supervisors know, a bit each.
     pub fn lost(&self) -> u32 {
-        let is = |it: &(usize, &Loss)| it.0 < MAX_LOSSES && self.is_marked(it.1.place);
-        let all = self.tables.losses.iter().enumerate().filter(is);
-        all.fold(0, |set, it| set | 1 << it.0)
+        let losses = self.tables.losses;
+        let is = |it: &usize| losses.get(*it).is_some_and(|it| self.is_marked(it.place));
+        losses_of((0..MAX_LOSSES).filter(is))
     }
 
     /// Whether the robot may move.

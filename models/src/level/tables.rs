@@ -187,9 +187,8 @@ impl Tables<'_> {
 
     /// Returns the losses of which a module does not work, a bit each.
     pub fn broken(&self, works: u64) -> u32 {
-        let is = |it: &(usize, &Loss)| it.0 < MAX_LOSSES && it.1.modules & !works != 0;
-        let all = self.losses.iter().enumerate().filter(is);
-        all.fold(0, |set, it| set | 1 << it.0)
+        let is = |it: &usize| self.losses.get(*it).is_some_and(|it| it.modules & !works != 0);
+        super::sets::losses_of((0..MAX_LOSSES).filter(is))
     }
 
     /// Returns the reports, a bit each, of failures all of whose flags are up.

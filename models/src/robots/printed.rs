@@ -13,7 +13,7 @@ use std::fmt::{Debug, Write};
 /// use cotama_models::robots::{Robot, to_rust};
 /// let source = to_rust(&Robot::shipped("transport").unwrap(), &[]);
 /// assert!(source.contains("pub static TABLES: Tables<'static> = Tables {"));
-/// assert!(source.contains("    pub const CONFIGURATIONS: [&str; 9] = ["), "{source}");
+/// assert!(source.contains("    pub const CONFIGURATIONS: [&str; 8] = ["), "{source}");
 /// ```
 pub fn to_rust(robot: &Robot, steps: &[Step]) -> String {
     let system = supervisors::of_mission(robot, steps);

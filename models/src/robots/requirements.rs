@@ -4,7 +4,7 @@
 //! [`system`](super::supervisors::system) as one net that acts in rounds.
 
 use super::supervisors::{Step, adapter, cannot, cannot_run, place_of, word};
-use super::{Mode, Robot, SubObjective};
+use super::{Mode, Report, Robot, SubObjective};
 use crate::severity::Severity;
 
 /// Something that the supervisors of a robot are required to do.
@@ -190,7 +190,9 @@ fn severe(robot: &Robot, ask: &mut Ask<'_>) {
     }
     let alone = places(robot, Some(Mode::Autonomous)).join(" | ");
     let at_once = robot.losses.reports.iter().filter(|it| it.is_told_at_once());
-    let hard = at_once.filter(|it| it.autonomous >= Severity::Hard).map(|it| {
+    // A local supervisor of one's own may answer by itself what does not need the operator.
+    let needs_him = |it: &&Report| it.operator >= Severity::Hard || robot.local.is_none();
+    let hard = at_once.filter(|it| it.autonomous >= Severity::Hard).filter(needs_him).map(|it| {
         let flag = format!("gom.flag_{}.waiting", word(&it.name));
         // Where the robot drives itself, it goes on doing so until it is stopped.
         if it.operator >= Severity::Hard { flag } else { format!("{flag} & ({alone})") }
@@ -227,34 +229,35 @@ fn places(robot: &Robot, mode: Option<Mode>) -> Vec<String> {
     all.map(|it| format!("ls.{}", word(&it.name))).collect()
 }
 
-/// Adds: who gives up ends the mission; and nothing ends it, or asks the operator, without a
-/// reason.
+/// Adds, of a robot with an operator: who gives up ends the mission; and nothing ends it, or asks
+/// him, without a reason.
 fn reasons(robot: &Robot, ask: &mut Ask<'_>) {
+    if !robot.can_ask(0) {
+        return;
+    }
     let told = |least: Severity| {
         let all = robot.losses.reports.iter();
         let severe = all.filter(move |it| it.autonomous.max(it.operator) >= least);
         severe.map(|it| format!("gom.flag_{}.waiting", word(&it.name)))
     };
-    let refusal = robot.operator.map(|_| "cs.refusal.waiting".to_owned());
-    if let Some(refusal) = &refusal {
-        let watch = at_end("refused", refusal, "gs.Security | gs.Safe", 3);
-        ask(
-            "CS3".to_owned(),
-            "An operator who gives up, or is silent, ends the mission after two rounds.".to_owned(),
-            vec![watch],
-            "AG refused <= 2".to_owned(),
-        );
-    }
+    let refusal = "cs.refusal.waiting".to_owned();
+    let watch = at_end("refused", &refusal, "gs.Security | gs.Safe", 3);
+    ask(
+        "CS3".to_owned(),
+        "An operator who gives up, or is silent, ends the mission after two rounds.".to_owned(),
+        vec![watch],
+        "AG refused <= 2".to_owned(),
+    );
     let helpless = cannot(robot, |lost| robot.can_ask(lost));
-    let ends: Vec<_> = told(Severity::Fatal).chain(refusal).collect();
-    let reason = at_end("reason", &or_never(&ends), "gs.Wait & gs.Safe", 1);
+    let ends: Vec<_> = told(Severity::Fatal).chain([refusal]).collect();
+    let reason = at_end("reason", &ends.join(" | "), "gs.Wait & gs.Safe", 1);
     let or_helpless = helpless.map_or_else(String::new, |it| format!(" | {it}"));
     ask(
         "GS5".to_owned(),
         "The mission ends only by something fatal, by the operator, or where nobody can be asked."
             .to_owned(),
         vec![reason],
-        format!("AG (gs.Security -> reason >= 1{or_helpless})"),
+        format!("AG (gs.global_event.waiting | gs.no_way.waiting -> reason >= 1{or_helpless})"),
     );
     let hard: Vec<_> = told(Severity::Hard).collect();
     let hard = or_never(&hard);

@@ -36,7 +36,8 @@ fn driven<P: Program<W, 0, SLOTS> + Copy, const W: usize>(
         twin.perceive(it.now, seen);
         // No flag tells that no plan is left.
         let rows = &robot.failures;
-        let new = world.run.conduct.iter().skip(before).map(|it| it.failure);
+        let new = world.run.conduct.iter().skip(before).filter(|it| it.detected.is_some());
+        let new = new.map(|it| it.failure);
         new.filter(|it| rows[*it].no_plan).for_each(|it| twin.report(it, Cause(0)));
         let told = world.run.told.last().filter(|it| it.0 == world.run.rounds).map(|it| it.1);
         let said = told.filter(|it| !matches!(it, Told::Report(_) | Told::Back(_)));

@@ -257,8 +257,7 @@ cotama_core::net! {
                 emit adapt_Follow;
             CAM1_Careful1 on CAM1 [in_Follow & runs_Careful & lost_lidar]: Ready => Ready
                 emit adapt_Follow;
-            STK1_Careful1 on STK1 [in_Follow & runs_Careful]: Ready => Ready emit local_event;
-            STK1_Blind1 on STK1 [in_Follow & runs_Blind]: Ready => Ready emit local_event;
+            STK1_Follow1 on STK1 [in_Follow]: Ready => Ready emit local_event;
             refusal_in_Manual on refusal [in_Manual]: Ready => Ready emit global_event;
             refusal_waits on refusal [waits]: Ready => Ready emit global_event;
         }

@@ -1,7 +1,7 @@
 //! The decisional level as it was first reconstructed: faults and operator are one net, and reports
-//! reach the contextual supervisor without diagnosis. The shipped system is
-//! [`delivery`](cotama_models::nets::by_hand::delivery); this one is kept for its state counts, which two
-//! other programs found as well.
+//! reach the contextual supervisor without diagnosis. What came of it
+//! is [`delivery`](cotama_models::nets::by_hand::delivery); this one is kept for its state counts,
+//! which two other programs found as well.
 
 use cotama_core::net::EventId;
 use cotama_core::player::Outcome;

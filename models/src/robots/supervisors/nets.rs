@@ -246,18 +246,36 @@ pub(super) fn contextual(robot: &Robot) -> OwnedNet {
                 });
             }
         };
+        let decides = |at, lost| decide(robot, number, Situation { at, lost });
+        let losses = || (0..=robot.losses.all()).filter(|it| it & given == given);
+        let alike = |one, other| losses().all(|it| decides(one, it) == decides(other, it));
+        let runs =
+            |it: &Part<'_>, configuration| Where::Runs { sub_objective: it.number, configuration };
+        let mut everywhere = all.iter().flat_map(|it| {
+            it.is.configurations.iter().map(move |configuration| runs(it, *configuration))
+        });
+        if alike(Where::Rests, Where::Waits) && everywhere.all(|it| alike(Where::Rests, it)) {
+            place(Where::Rests, &[], "", "");
+            continue;
+        }
         let at_rest: Vec<_> = all.iter().map(|it| (format!("in_{}", it.name), false)).collect();
         let at_rest = [at_rest, vec![("waits".to_owned(), false)]].concat();
         place(Where::Rests, &at_rest, "", "at_rest");
         place(Where::Waits, &[("waits".to_owned(), true)], "", "waits");
         for it in &all {
             let here = (format!("in_{}", it.name), true);
-            for &runs in &it.is.configurations {
-                let at = Where::Runs { sub_objective: it.number, configuration: runs };
-                let name = configuration(robot, runs);
+            let mut others = it.is.configurations.iter().map(|of| runs(it, *of));
+            if let (true, Some(first)) = (has_adapter(it.is), others.next())
+                && others.all(|it| alike(first, it))
+            {
+                place(first, &[here], &it.name, &it.name);
+                continue;
+            }
+            for &of in &it.is.configurations {
+                let name = configuration(robot, of);
                 let own = has_adapter(it.is).then(|| (format!("runs_{name}"), true));
                 let wheres: Vec<_> = [here.clone()].into_iter().chain(own).collect();
-                place(at, &wheres, &it.name, &name);
+                place(runs(it, of), &wheres, &it.name, &name);
             }
         }
     }
