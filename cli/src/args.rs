@@ -279,7 +279,7 @@ pub(crate) struct MissionArg {
 pub(crate) struct TableArgs {
     /// The name of a mission or a robot that comes with the program, the path of its file, or `-`
     pub(crate) mission: String,
-    /// Of a robot: its decisional level in this mission, whose objectives its global supervisor has
+    /// Mission of a robot: its global supervisor has these objectives
     #[arg(long = "mission", value_name = "MISSION")]
     pub(crate) of: Option<String>,
 }

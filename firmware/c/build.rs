@@ -32,7 +32,7 @@ fn print() -> Result<(), String> {
     let steps = mission.steps();
     let system = supervisors::of_mission(robot, &steps);
     let size = system.with(pack::size_of);
-    // What a slot carries has two bytes, and fields are aligned: the library compares it.
+    // A slot carries two bytes, and fields are aligned: the library compares it.
     let varies = 8 * size.words + 4 * size.clocks + 2 * size.slots;
     let level = (size_of::<u64>() + size_of::<Decider<'_, (), 0, 0, 0>>() + varies + 16)
         .next_multiple_of(16);

@@ -1,4 +1,4 @@
-//! How severe a failure is, who answers it, and how long it lasts.
+//! Severity of a failure, receiver of its event, duration.
 
 /// Severity (stated, Durand et al., TAROS 2010, Section III.A). It depends on the autonomy mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -6,7 +6,7 @@ use cotama_models::fmeca::{Analysis, Mode};
 use cotama_models::robots::{Parts, Robot};
 use cotama_models::severity::{Persistence, Severity};
 
-/// All that is known; a robot says more than a file of rows.
+/// Returns the analysis as an answer; a robot says more than a file of rows.
 pub(crate) fn answer<'a>(analysis: &'a Analysis, robot: Option<&'a Robot>) -> FmecaAnswer<'a> {
     let rows: Vec<_> = analysis.modes().iter().map(|it| row(analysis, it, robot)).collect();
     FmecaAnswer {

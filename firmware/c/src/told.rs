@@ -39,43 +39,40 @@ pub struct cotama_told {
     pub number: u32,
 }
 
+/// Whether a word of C has the kind of one of Rust's, one later: 0 says nothing.
+const fn is(word: cotama_word, told: Told) -> bool {
+    word as u32 == told.to_numbers().0 as u32 + 1
+}
+
+const _: () = {
+    assert!(is(cotama_word::Begins, Told::Begins) && is(cotama_word::Over, Told::Over(0)));
+    assert!(is(cotama_word::Stopped, Told::Stopped) && is(cotama_word::Reached, Told::Reached(0)));
+    assert!(is(cotama_word::Report, Told::Report(0)) && is(cotama_word::Back, Told::Back(0)));
+    assert!(is(cotama_word::Chooses, Told::Chooses(0)) && is(cotama_word::Done, Told::Done(0)));
+    assert!(is(cotama_word::GivesUp, Told::GivesUp) && cotama_word::Nothing as u32 == 0);
+};
+
 impl From<Option<Told>> for cotama_told {
     fn from(told: Option<Told>) -> Self {
-        use cotama_word::{
-            Back, Begins, Chooses, Done, GivesUp, Nothing, Over, Reached, Report, Stopped,
-        };
-        let (word, number) = match told {
-            None => (Nothing, 0),
-            Some(Told::Begins) => (Begins, 0),
-            Some(Told::Over(it)) => (Over, it),
-            Some(Told::Stopped) => (Stopped, 0),
-            Some(Told::Reached(it)) => (Reached, it),
-            Some(Told::Report(it)) => (Report, it),
-            Some(Told::Back(it)) => (Back, it),
-            Some(Told::Chooses(it)) => (Chooses, it),
-            Some(Told::Done(it)) => (Done, it),
-            Some(Told::GivesUp) => (GivesUp, 0),
-        };
-        Self { word: word as u32, number: number as u32 }
+        let (word, number) = told.map_or((0, 0), |it| {
+            let (kind, number) = it.to_numbers();
+            (u32::from(kind) + 1, number)
+        });
+        Self { word, number: number as u32 }
     }
 }
 
 impl cotama_told {
     /// Reads what it stands for; `None` for nothing.
     pub(crate) fn read(self) -> Result<Option<Told>, cotama_error> {
-        let it = self.number as usize;
-        Ok(Some(match (self.word, self.number) {
-            (0, 0) => return Ok(None),
-            (1, 0) => Told::Begins,
-            (2, _) => Told::Over(it),
-            (3, 0) => Told::Stopped,
-            (4, _) => Told::Reached(it),
-            (5, _) => Told::Report(it),
-            (6, _) => Told::Back(it),
-            (7, _) => Told::Chooses(it),
-            (8, _) => Told::Done(it),
-            (9, 0) => Told::GivesUp,
-            _ => return Err(cotama_error::BadNumber),
-        }))
+        match (self.word.checked_sub(1), self.number) {
+            (None, 0) => Ok(None),
+            (None, _) => Err(cotama_error::BadNumber),
+            (Some(kind), number) => {
+                let kind = u8::try_from(kind).map_err(|_| cotama_error::BadNumber)?;
+                let told = Told::from_numbers(kind, number as usize);
+                told.map(Some).ok_or(cotama_error::BadNumber)
+            }
+        }
     }
 }

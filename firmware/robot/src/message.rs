@@ -15,38 +15,6 @@ pub struct Period {
 
 const SILENT: u8 = 0xFF;
 
-/// The kind of a word, and the number that goes with it.
-const fn word(said: Told) -> [u8; 2] {
-    match said {
-        Told::Begins => [0, 0],
-        Told::Over(it) => [1, it as u8],
-        Told::Stopped => [2, 0],
-        Told::Reached(it) => [3, it as u8],
-        Told::Report(it) => [4, it as u8],
-        Told::Back(it) => [5, it as u8],
-        Told::Chooses(it) => [6, it as u8],
-        Told::Done(it) => [7, it as u8],
-        Told::GivesUp => [8, 0],
-    }
-}
-
-/// The word of a kind and a number; `None` where there is none.
-const fn told([kind, number]: [u8; 2]) -> Option<Told> {
-    let it = number as usize;
-    Some(match (kind, number) {
-        (0, 0) => Told::Begins,
-        (1, _) => Told::Over(it),
-        (2, 0) => Told::Stopped,
-        (3, _) => Told::Reached(it),
-        (4, _) => Told::Report(it),
-        (5, _) => Told::Back(it),
-        (6, _) => Told::Chooses(it),
-        (7, _) => Told::Done(it),
-        (8, 0) => Told::GivesUp,
-        _ => return None,
-    })
-}
-
 impl Period {
     /// Length in bytes.
     pub const BYTES: usize = 27;
@@ -60,7 +28,10 @@ impl Period {
         bytes[8..16].copy_from_slice(&lowered.to_le_bytes());
         bytes[16..24].copy_from_slice(&works.to_le_bytes());
         bytes[24] = u8::from(self.drive.at_goal) | u8::from(self.drive.stands) << 1;
-        bytes[25..].copy_from_slice(&self.said.map_or([SILENT, 0], word));
+        bytes[25..].copy_from_slice(&self.said.map_or([SILENT, 0], |it| {
+            let (kind, number) = it.to_numbers();
+            [kind, number as u8]
+        }));
         bytes
     }
 
@@ -75,7 +46,7 @@ impl Period {
         };
         let said = match [bytes[25], bytes[26]] {
             [SILENT, 0] => None,
-            it => Some(told(it)?),
+            [kind, number] => Some(Told::from_numbers(kind, usize::from(number))?),
         };
         Some(Self { seen, drive, said })
     }

@@ -61,7 +61,7 @@ const fn is(one: &[u8], other: &[u8]) -> bool {
 #[derive(Clone, Debug)]
 pub struct Surroundings<'i> {
     incidents: &'i [Incident],
-    /// How far the robot has come, all drives together.
+    /// Position of the robot, all drives together.
     x_mm: u64,
     stands: bool,
     /// Since when the global and the local supervisor are where they are.

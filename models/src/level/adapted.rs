@@ -6,7 +6,7 @@ use super::told::Mode;
 use crate::severity::Persistence;
 use cotama_core::units::Millis;
 
-/// How long a part that was lost has to work before it is used again (assumed).
+/// The time for which a lost part has to work before it is used again (assumed).
 pub const SOUND_FOR: Millis = Millis(5_000);
 
 /// The settings that were made, and since when lost parts work again.
@@ -14,11 +14,11 @@ pub const SOUND_FOR: Millis = Millis(5_000);
 pub struct Adapted {
     /// The reports whose settings were made, a bit each.
     made: u64,
-    /// When failures of a report were last seen after its setting was made.
+    /// The last sight of failures of a report after its setting was made.
     seen: [Millis; MAX_REPORTS],
     /// The losses that are known and can come back, a bit each.
     known: u32,
-    /// When a loss was last seen to be there.
+    /// The last sight of a loss.
     there: [Millis; MAX_LOSSES],
     /// The losses that are there, as far as can be seen.
     broken: u32,

@@ -12,7 +12,7 @@ use cotama_core::player::{Firing, Names, Observer, Program};
 use cotama_core::system::Of;
 use cotama_core::units::{MillimetresPerSecond, Millis};
 
-/// How long the robot waits for the operator before he counts as silent (assumed).
+/// The time after which an operator who is waited for counts as silent (assumed).
 pub const PATIENCE: Millis = Millis(120_000);
 
 /// The news of observers and of the scheduler in a period.

@@ -30,7 +30,7 @@ impl Rows {
         }
     }
 
-    /// Iterates over it, the worst first, among equals by number.
+    /// Iterates over the failures, the worst first, among equals by number.
     pub fn worst_first<'f>(
         &self,
         failures: &'f [Failure],

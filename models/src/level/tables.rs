@@ -29,11 +29,11 @@ pub struct Tables<'t> {
     pub gives_up: Option<Of<EventId>>,
     /// The place of the global supervisor before the mission.
     pub before: Of<PlaceId>,
-    /// Its place when all is done; `None` without a mission.
+    /// Place of the global supervisor when all is done; `None` without a mission.
     pub done: Option<Of<PlaceId>>,
-    /// Its place while the robot is made safe.
+    /// Place of the global supervisor while the robot is made safe.
     pub secures: Of<PlaceId>,
-    /// Its place when the robot is safe.
+    /// Place of the global supervisor when the robot is safe.
     pub safe: Of<PlaceId>,
     /// The place of the local supervisor in which it waits for the operator.
     pub waits: Of<PlaceId>,
@@ -116,11 +116,11 @@ pub struct Report {
 /// A setting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setting {
-    /// How much it leaves of the speed, in thousandths.
+    /// The part of the speed that it leaves, in thousandths.
     pub speed: u16,
     /// The mode in which it leaves less of the speed; `None` for both.
     pub mode: Option<Mode>,
-    /// How long it outlasts the failure.
+    /// The time by which it outlasts the failure.
     pub holds: Millis,
     /// Whether the failure is over by it.
     pub mends: bool,
@@ -133,9 +133,9 @@ pub struct Failure {
     pub flags: u64,
     /// The report of it.
     pub report: u8,
-    /// How severe it is at worst.
+    /// Severity at worst.
     pub worst: Severity,
-    /// How long it lasts.
+    /// Duration.
     pub persistence: Persistence,
 }
 

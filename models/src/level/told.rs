@@ -1,4 +1,4 @@
-//! What supervisors are told, and where they are.
+//! Words for the supervisors, and places of theirs.
 
 use cotama_core::player::Stored;
 
@@ -42,6 +42,47 @@ pub enum Told {
     Done(usize),
     /// The operator gives up, or is silent for too long.
     GivesUp,
+}
+
+impl Told {
+    /// Returns its kind, from 0 on in the order of the declaration, and the number of what it is
+    /// about, 0 where there is none: for frames and for C.
+    ///
+    /// ```
+    /// use cotama_models::level::Told;
+    /// assert_eq!(Told::Reached(2).to_numbers(), (3, 2));
+    /// assert_eq!(Told::from_numbers(3, 2), Some(Told::Reached(2)));
+    /// assert_eq!(Told::from_numbers(0, 2), None); // a beginning has no number
+    /// ```
+    pub const fn to_numbers(self) -> (u8, usize) {
+        match self {
+            Self::Begins => (0, 0),
+            Self::Over(it) => (1, it),
+            Self::Stopped => (2, 0),
+            Self::Reached(it) => (3, it),
+            Self::Report(it) => (4, it),
+            Self::Back(it) => (5, it),
+            Self::Chooses(it) => (6, it),
+            Self::Done(it) => (7, it),
+            Self::GivesUp => (8, 0),
+        }
+    }
+
+    /// Returns the word of a kind and a number; `None` where they stand for nothing.
+    pub const fn from_numbers(kind: u8, number: usize) -> Option<Self> {
+        Some(match (kind, number) {
+            (0, 0) => Self::Begins,
+            (1, _) => Self::Over(number),
+            (2, 0) => Self::Stopped,
+            (3, _) => Self::Reached(number),
+            (4, _) => Self::Report(number),
+            (5, _) => Self::Back(number),
+            (6, _) => Self::Chooses(number),
+            (7, _) => Self::Done(number),
+            (8, 0) => Self::GivesUp,
+            _ => return None,
+        })
+    }
 }
 
 /// The place of the global supervisor.

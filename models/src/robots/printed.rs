@@ -21,7 +21,7 @@ pub fn to_rust(robot: &Robot, steps: &[Step]) -> String {
     let tables = owned.view();
     let mut text = supervisors::to_rust(&system);
     text += "
-/// What the decisional level needs of the robot at work.
+/// Numbers and facts that the decisional level needs at work.
 pub mod tables {
     #![allow(unused_imports)] // a robot may have no setting, no restart, no operator
     use cotama_core::net::{EventId, PlaceId, TransitionId};

@@ -194,7 +194,7 @@ fn severe(robot: &Robot, ask: &mut Ask<'_>) {
     let needs_him = |it: &&Report| it.operator >= Severity::Hard || robot.local.is_none();
     let hard = at_once.filter(|it| it.autonomous >= Severity::Hard).filter(needs_him).map(|it| {
         let flag = format!("gom.flag_{}.waiting", word(&it.name));
-        // Where the robot drives itself, it goes on doing so until it is stopped.
+        // A robot that drives itself goes on doing so until it is stopped.
         if it.operator >= Severity::Hard { flag } else { format!("{flag} & ({alone})") }
     });
     let hard: Vec<_> = hard.collect();

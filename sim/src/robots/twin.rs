@@ -41,7 +41,7 @@ fn driven<P: Program<W, 0, SLOTS> + Copy, const W: usize>(
         new.filter(|it| rows[*it].no_plan).for_each(|it| twin.report(it, Cause(0)));
         let told = world.run.told.last().filter(|it| it.0 == world.run.rounds).map(|it| it.1);
         let said = told.filter(|it| !matches!(it, Told::Report(_) | Told::Back(_)));
-        // What the drive shows is said by the simulator.
+        // The simulator says what the drive shows.
         let drive = Drive { at_goal: false, stands: false };
         let round = twin.period(it.now, said, drive, &mut ());
         let (own, other) = (world.level(), twin.level());

@@ -5,8 +5,6 @@ use crate::conformance::Draw;
 use crate::delivery::explored;
 use crate::drawn::Drawn;
 use crate::mutations::mutants;
-use cotama_core::net::owned::View;
-use cotama_core::system::{Component, System};
 use cotama_models::missions::{Mission, embedded};
 use cotama_models::robots::Robot;
 use cotama_models::robots::requirements::{self, Requirement};
@@ -70,33 +68,15 @@ fn the_supervisors_of_the_delivery_have_661680_states_between_rounds() {
     assert_eq!(rounds.size(&graph).states, cotama_golden::figure::<u64>("supervised.states"));
 }
 
-/// A system that lives to the end.
-fn lent(system: OwnedSystem) -> System<'static> {
-    let it: &'static OwnedSystem = Box::leak(Box::new(system));
-    let views: &'static [_] = it.nets.iter().map(|it| it.1.view()).collect::<Vec<_>>().leak();
-    let nets: &'static [_] = views.iter().map(View::net).collect::<Vec<_>>().leak();
-    let names = it.nets.iter().map(|it| it.0.as_str());
-    let components = names.zip(nets).map(|(name, net)| Component { name, net });
-    System {
-        name: &it.name,
-        doc: &it.doc,
-        components: components.collect::<Vec<_>>().leak(),
-        links: &it.links,
-        bindings: &it.bindings,
-        clears: &it.clears,
-    }
-}
-
 /// Every tenth way to break one line, link or shared place of the supervisors of a small robot.
-/// Those that break no requirement change what nothing is required of: an output that nobody hears,
-/// a place that two lines read alike.
+/// Most of those that break no requirement are in lines for losses that have ended the mission.
 #[test]
 #[ignore = "minutes: CI runs it"]
 fn mutants_of_a_robots_supervisors_break_a_requirement() {
     let text = SCOUT.replace("\"stuck\"] }", "\"stuck\", \"no link\", \"base silent\"] }");
     let text = text + MORE_FAILS;
     let robot = Robot::parse("scout.toml", &text).unwrap_or_else(|it| panic!("{it}"));
-    let made = lent(system(&robot));
+    let made = system(&robot).leak();
     let own = made.components.iter().take_while(|it| it.name != "faults").count() as u16;
     let (mut all, mut kept) = (0, Vec::new());
     for it in mutants(made, own).into_iter().step_by(10) {

@@ -4,6 +4,7 @@ use super::data::{Binding, Clear, Component, Link, System};
 use crate::net::Net;
 use crate::net::owned::{OwnedNet, View};
 use alloc::borrow::ToOwned;
+use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -57,6 +58,30 @@ impl OwnedSystem {
             bindings: &self.bindings,
             clears: &self.clears,
         })
+    }
+
+    /// Lends it for good, for a system that is made once: its memory is never freed.
+    ///
+    /// ```
+    /// use cotama_core::system::owned::OwnedSystem;
+    /// let system = OwnedSystem::new("empty", "").leak();
+    /// assert_eq!((system.name, system.components.len()), ("empty", 0));
+    /// ```
+    pub fn leak(self) -> System<'static> {
+        let it: &'static Self = Box::leak(Box::new(self));
+        let views: &'static [View<'_>] =
+            it.nets.iter().map(|it| it.1.view()).collect::<Vec<_>>().leak();
+        let nets: &'static [Net<'_>] = views.iter().map(View::net).collect::<Vec<_>>().leak();
+        let names = it.nets.iter().map(|it| it.0.as_str());
+        let components = names.zip(nets).map(|(name, net)| Component { name, net });
+        System {
+            name: &it.name,
+            doc: &it.doc,
+            components: components.collect::<Vec<_>>().leak(),
+            links: &it.links,
+            bindings: &it.bindings,
+            clears: &it.clears,
+        }
     }
 }
 

@@ -20,7 +20,7 @@ pub(super) fn play(tick: &mut dyn FnMut(), trace: &mut Trace<'_, impl Sink>) -> 
     let tasks = found.and_then(|it| TASKS.get(it)).copied().unwrap_or_default();
     let localises = |it: &(u8, Task)| names::MODULES.get(usize::from(it.0)) == Some(&"MCL");
     let localisation = tasks.iter().position(localises);
-    // Those that are left over take no time to speak of, once a day.
+    // Tasks that are left over take no time to speak of, once a day.
     let idle = Task::new(Micros(86_400_000_000), Micros(1));
     let mut all = [idle; MOST];
     all.iter_mut().zip(tasks).for_each(|(to, (_, task))| *to = *task);

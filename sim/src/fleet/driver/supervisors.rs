@@ -1,13 +1,10 @@
 //! The supervisors of the robots of a team: made of their file once, and shared by all.
 
 use crate::robots::{SLOTS, SMALL};
-use cotama_core::net::Net;
-use cotama_core::net::owned::View;
 use cotama_core::player::{Loaded, Packed};
-use cotama_core::system::{Component, System};
 use cotama_core::units::{Millis, Milliwatts};
 use cotama_models::level::{Cause, Level, Tables, Told};
-use cotama_models::robots::supervisors::{self, OwnedSystem};
+use cotama_models::robots::supervisors;
 use cotama_models::robots::{Body, OwnedTables, Robot, members};
 use cotama_models::team::scenario;
 use std::sync::LazyLock;
@@ -38,7 +35,7 @@ pub(super) static KIND: LazyLock<Kind> = LazyLock::new(|| {
     let system = supervisors::of_mission(robot, &steps);
     let tables: &'static OwnedTables = Box::leak(Box::new(OwnedTables::of(robot, &steps, &system)));
     let tables: &'static Tables<'static> = Box::leak(Box::new(tables.view()));
-    let system = lent(system);
+    let system = system.leak();
     let packed = Packed::of(&system).expect("a test plays it");
     let packed: &'static Packed<SMALL, 0, SLOTS> = Box::leak(Box::new(packed));
     let configurations = 0..robot.configurations.len();
@@ -51,24 +48,6 @@ pub(super) static KIND: LazyLock<Kind> = LazyLock::new(|| {
         powers: configurations.map(|it| power(robot, it)).collect(),
     }
 });
-
-/// Lends a system for good: it is made once.
-fn lent(system: OwnedSystem) -> System<'static> {
-    let it: &'static OwnedSystem = Box::leak(Box::new(system));
-    let views: &'static [View<'_>] =
-        it.nets.iter().map(|it| it.1.view()).collect::<Vec<_>>().leak();
-    let nets: &'static [Net<'_>] = views.iter().map(View::net).collect::<Vec<_>>().leak();
-    let names = it.nets.iter().map(|it| it.0.as_str());
-    let components = names.zip(nets).map(|(name, net)| Component { name, net });
-    System {
-        name: &it.name,
-        doc: &it.doc,
-        components: components.collect::<Vec<_>>().leak(),
-        links: &it.links,
-        bindings: &it.bindings,
-        clears: &it.clears,
-    }
-}
 
 /// Returns the power of the hardware that a configuration uses.
 fn power(robot: &Robot, configuration: usize) -> Milliwatts {

@@ -66,6 +66,11 @@ fn root_tables_event(of: &Tables<'_>, told: Told) -> Option<Of<EventId>> {
 }
 
 #[unsafe(no_mangle)]
+fn root_told_numbers(told: Told, kind: u8, number: usize) -> ((u8, usize), Option<Told>) {
+    (told.to_numbers(), Told::from_numbers(kind, number))
+}
+
+#[unsafe(no_mangle)]
 fn root_tables_act(of: &Tables<'_>, on: Of<TransitionId>) -> Option<Act> {
     of.act(on)
 }
