@@ -236,7 +236,8 @@ pub(crate) fn steps(name: &str, robot: &Robot, of: &str) -> Result<Vec<Step>, Fa
         other => {
             let other = other.map_or("none", |it| it.robot().name.as_str());
             let message = format!("--mission: the robot of `{of}` is {other}, not `{name}`");
-            Err(Failure::new(message).help(format!("try `cotama check {of}`")))
+            Err(Failure::new(message)
+                .help("name a mission of this robot, or the other robot before it"))
         }
     }
 }

@@ -21,6 +21,9 @@ const WORDS: [(&str, &str); 12] = [
     ("WiFi", "the wireless network"),
 ];
 
+/// How many of them a file of rows may use; the others are of robots.
+const COMMON: usize = 3;
+
 /// The section of the page; `page` is what stands before it.
 pub(super) fn section(page: &str, robot: Option<&Robot>) -> String {
     let texts = page.split('<').filter_map(|it| it.split_once('>')).map(|it| it.1);
@@ -34,7 +37,8 @@ pub(super) fn section(page: &str, robot: Option<&Robot>) -> String {
         "<section id=\"abbreviations\">\n<h2>Abbreviations on this page</h2>\n<p class=\"note\">\
          Ids of failure modes lead to their rows.</p>\n<dl>\n",
     );
-    let known = WORDS.into_iter().chain(modules).chain(observers);
+    let own = robot.map_or(COMMON, |_| WORDS.len());
+    let known = WORDS.into_iter().take(own).chain(modules).chain(observers);
     for (name, meaning) in known.filter(|it| words.contains(it.0)) {
         let meaning = markup(meaning.trim().trim_end_matches('.'));
         let _ = writeln!(html, "<div><dt>{name}</dt><dd>{meaning}</dd></div>");
