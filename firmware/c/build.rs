@@ -3,7 +3,7 @@
 //! The mission is that of the environment variable `COTAMA_MISSION`: the name of one that comes
 //! with the project, or the path of a file; else the delivery.
 
-use cotama_core::player::pack;
+use cotama_core::player::size;
 use cotama_models::level::Decider;
 use cotama_models::missions::{Mission, embedded};
 use cotama_models::robots::{self, Robot, RobotFile, supervisors, to_rust};
@@ -31,7 +31,7 @@ fn print() -> Result<(), String> {
     };
     let steps = mission.steps();
     let system = supervisors::of_mission(robot, &steps);
-    let size = system.with(pack::size_of);
+    let size = system.with(size::size_of);
     // A slot carries two bytes, and fields are aligned: the library compares it.
     let varies = 8 * size.words + 4 * size.clocks + 2 * size.slots;
     let level = (size_of::<u64>() + size_of::<Decider<'_, (), 0, 0, 0>>() + varies + 16)

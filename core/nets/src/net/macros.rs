@@ -242,25 +242,10 @@ macro_rules! net {
                 &[$crate::system::Component::alone(&NET)];
             const SYSTEM: $crate::system::System<'static> =
                 $crate::system::System::alone(ALONE);
-            const CODE_SIZE: net_code::Size = $crate::player::pack::size_of(&SYSTEM);
-            const ARRAYS: &$crate::player::Arrays<
-                { CODE_SIZE.words },
-                { CODE_SIZE.entries },
-                { CODE_SIZE.takes },
-                { CODE_SIZE.rows },
-                { CODE_SIZE.routes },
-                { CODE_SIZE.says },
-                { CODE_SIZE.mailboxes },
-                { CODE_SIZE.components + 1 },
-                { CODE_SIZE.fields },
-                { CODE_SIZE.complements },
-                { CODE_SIZE.clocks },
-                { CODE_SIZE.clears },
-                { CODE_SIZE.ignored },
-                { CODE_SIZE.ignored_where },
-                { CODE_SIZE.kept },
-                { CODE_SIZE.summands },
-            > = &$crate::player::Arrays::of(&SYSTEM);
+            const MOST: net_code::Size = $crate::player::size::size_of(&SYSTEM);
+            const CODE_SIZE: net_code::Size =
+                <$crate::__arrays!(MOST)>::of(&SYSTEM).exact(MOST);
+            const ARRAYS: &$crate::__arrays!(CODE_SIZE) = &$crate::player::Arrays::of(&SYSTEM);
 
             /// How the net was checked.
             pub const KNOWN: $crate::net::Known =

@@ -248,8 +248,8 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         let code = self.program.code();
         (first..end).find(|&at| {
             debug_assert!(usize::from(at) < code.entries.len(), "a span of entries");
-            let entry = code.entries.get(usize::from(at));
-            entry.is_some_and(|it| self.can(code, it) && self.open(code, it))
+            let entry = code.entry(usize::from(at));
+            entry.is_some_and(|it| self.can(code, &it) && self.open(code, &it))
         })
     }
 
@@ -261,7 +261,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         on: Option<u16>,
         under_way: &mut UnderWay<'_, Self, M>,
     ) -> Option<u16> {
-        let number = self.apply_at(at)?;
+        let number = self.apply(at)?;
         under_way.fired = under_way.fired.saturating_add(1);
         (under_way.tell)(self, Happened::Fired(number, on));
         let code = self.program.code();

@@ -36,28 +36,13 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         }
     }
 
-    /// Moves the tokens of a transition.
+    /// Moves the tokens of the transition at a position; its number.
     #[inline]
-    pub(super) fn apply(&mut self, entry: &Entry<W>) {
-        let after = plus(&self.marking, &entry.delta);
-        debug_assert!(self.fits(&after), "a transition that fires keeps every bound");
-        if C > 0
-            && let Some(take) = self.program.code().takes.get(usize::from(entry.transition))
-        {
-            self.restart(&minus(&self.marking, take));
-            if let Some(elapsed) = self.clocks.get_mut(usize::from(entry.clock)) {
-                *elapsed = 0;
-            }
-        }
-        self.marking = after;
-    }
-
-    /// The same of the transition at a position; its number.
-    pub(super) fn apply_at(&mut self, at: u16) -> Option<u16> {
+    pub(super) fn apply(&mut self, at: u16) -> Option<u16> {
         let code = self.program.code();
-        let entry = code.entries.get(usize::from(at))?;
+        let entry = code.entry(usize::from(at))?;
         let (number, clock) = (entry.transition, entry.clock);
-        let after = plus(&self.marking, &entry.delta);
+        let after = plus(&self.marking, entry.delta);
         debug_assert!(self.fits(&after), "a transition that fires keeps every bound");
         if C > 0
             && let Some(take) = code.takes.get(usize::from(number))
@@ -110,7 +95,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
 
     /// Whether the interval of a transition allows it to fire now.
     #[inline]
-    pub(super) fn open(&self, code: &Code<'_, W>, entry: &Entry<W>) -> bool {
+    pub(super) fn open(&self, code: &Code<'_, W>, entry: &Entry<'_, W>) -> bool {
         if C == 0 || entry.clock == NONE {
             return true;
         }
@@ -121,17 +106,19 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         }
     }
 
-    /// The transition without event that is due first, and how long it has to wait; of those that
-    /// are not refused.
+    /// How long the transition without event that is due first has to wait, and its position; of
+    /// those that are not refused.
     #[inline]
-    pub(super) fn due(&self, refused: &[bool; C]) -> Option<(u32, Entry<W>)> {
+    pub(super) fn due(&self, refused: &[bool; C]) -> Option<(u32, u16)> {
         if C == 0 {
             return None;
         }
         let code = self.program.code();
-        let mut first: Option<(u32, &Entry<W>)> = None;
+        let mut first: Option<(u32, u16)> = None;
+        let (start, end) = code.row(code.timed(), &self.marking)?;
         // In their order, so that of several due at one instant the first one goes first.
-        for entry in code.row(code.timed(), &self.marking)? {
+        for at in start..end {
+            let entry = code.entry(usize::from(at))?;
             let number = usize::from(entry.clock);
             debug_assert!(number < C && number < code.clocks.len(), "it waits for an instant");
             let (Some(clock), Some(&elapsed)) = (code.clocks.get(number), self.clocks.get(number))
@@ -142,11 +129,11 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
                 continue;
             }
             let waits = clock.earliest.saturating_sub(elapsed);
-            if first.is_none_or(|(least, _)| waits < least) && self.can(code, entry) {
-                first = Some((waits, entry));
+            if first.is_none_or(|(least, _)| waits < least) && self.can(code, &entry) {
+                first = Some((waits, at));
             }
         }
-        first.map(|(waits, entry)| (waits, *entry))
+        first
     }
 
     /// How long until an event may find another answer, because the interval of a transition on it

@@ -16,16 +16,29 @@ use super::lists::{borrowed, each_list};
 use crate::net::data::{EventId, PlaceId, TransitionId};
 use crate::system::data::Of;
 
-/// One transition, packed.
+/// One transition as it is listed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Entry<const W: usize> {
-    /// Tokens that must be there.
-    pub need: [u64; W],
-    /// The words added to the marking, modulo 2^64 in each word.
-    pub delta: [u64; W],
+pub struct Listed {
+    /// Position in [`Code::needs`].
+    pub need: u16,
+    /// Position in [`Code::deltas`].
+    pub delta: u16,
     /// Number of the transition.
     pub transition: u16,
     /// Position of its clock in [`Code::clocks`]; [`NONE`] when it has no interval.
+    pub clock: u16,
+}
+
+/// One transition with its words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry<'c, const W: usize> {
+    /// Tokens that must be there.
+    pub need: &'c [u64; W],
+    /// The words added to the marking, modulo 2^64 in each word.
+    pub delta: &'c [u64; W],
+    /// See [`Listed::transition`].
+    pub transition: u16,
+    /// See [`Listed::clock`].
     pub clock: u16,
 }
 
@@ -128,6 +141,10 @@ pub struct Words<const W: usize> {
     pub states: u16,
     /// Tells systems apart.
     pub fingerprint: u64,
+    /// How many distinct needs there are.
+    pub needs: u16,
+    /// How many distinct deltas there are.
+    pub deltas: u16,
 }
 
 impl<const W: usize> Words<W> {
@@ -139,6 +156,8 @@ impl<const W: usize> Words<W> {
         control: 0,
         states: 1,
         fingerprint: 0,
+        needs: 0,
+        deltas: 0,
     };
 }
 
@@ -150,6 +169,8 @@ pub struct Size {
     pub words: usize,
     pub components: usize,
     pub entries: usize,
+    pub needs: usize,
+    pub deltas: usize,
     pub takes: usize,
     pub rows: usize,
     pub routes: usize,
@@ -193,39 +214,48 @@ impl<'c, const W: usize> Code<'c, W> {
         self.first_urgent().saturating_add(self.components())
     }
 
-    /// The first transition of a kind that may be enabled in this marking and `can`.
+    /// The transition at a position in `entries`.
+    #[inline]
+    pub const fn entry(&self, at: usize) -> Option<Entry<'c, W>> {
+        if at >= self.entries.len() {
+            return None;
+        }
+        let Listed { need, delta, transition, clock } = self.entries[at];
+        // Each has its own words in lists of single ones: no position is looked up there.
+        let own = W == 1;
+        debug_assert!(!own || need as usize == at && delta as usize == at, "as it is packed");
+        let (need, delta) = if own { (at, at) } else { (need as usize, delta as usize) };
+        let (need, delta) = (words(self.needs, need), words(self.deltas, delta));
+        Some(Entry { need, delta, transition, clock })
+    }
+
+    /// The position of the first transition of a kind that may be enabled in this marking and
+    /// `can`.
     #[inline]
     pub fn first(
         &self,
         kind: usize,
         marking: &[u64; W],
-        can: impl Fn(&Entry<W>) -> bool,
-    ) -> Option<&'c Entry<W>> {
-        let (start, end) = self.row_bounds(kind, marking)?;
+        can: impl Fn(&Entry<'c, W>) -> bool,
+    ) -> Option<u16> {
+        let (start, end) = self.row(kind, marking)?;
         let mut at = usize::from(start);
         loop {
             debug_assert!(start == NONE || end as usize <= self.entries.len(), "a row of entries");
-            let entry = self.entries.get(at)?;
-            if can(entry) {
-                return Some(entry);
+            if can(&self.entry(at)?) {
+                return Some(at as u16);
             }
-            at += 1;
+            at = at.wrapping_add(1); // an end is no larger than a `u16`
             if at >= usize::from(end) {
                 return None;
             }
         }
     }
 
-    /// The transitions of a kind that may be enabled in this marking; `None` when it has none.
+    /// The first and the end in `entries` of the transitions of a kind that may be enabled in this
+    /// marking; `None` when there is no such kind.
     #[inline]
-    pub fn row(&self, kind: usize, marking: &[u64; W]) -> Option<&'c [Entry<W>]> {
-        let (start, end) = self.row_bounds(kind, marking)?;
-        self.entries.get(usize::from(start)..usize::from(end))
-    }
-
-    /// Returns the bounds in `entries` of the transitions of a kind that the state enables.
-    #[inline]
-    fn row_bounds(&self, kind: usize, marking: &[u64; W]) -> Option<(u16, u16)> {
+    pub fn row(&self, kind: usize, marking: &[u64; W]) -> Option<(u16, u16)> {
         let of_kind = kind.checked_mul(2 * usize::from(self.states))?;
         let row = of_kind.checked_add(self.control_bit(marking))?;
         Some((*self.rows.get(row)?, *self.rows.get(row.checked_add(1)?)?))
@@ -244,7 +274,7 @@ impl<'c, const W: usize> Code<'c, W> {
     }
 
     /// All transitions of some kinds that follow each other.
-    pub(super) fn kinds(&self, kinds: core::ops::Range<usize>) -> &'c [Entry<W>] {
+    pub(super) fn kinds(&self, kinds: core::ops::Range<usize>) -> &'c [Listed] {
         let (first, end) = self.span(kinds);
         self.entries.get(usize::from(first)..usize::from(end)).unwrap_or(&[])
     }
@@ -289,7 +319,8 @@ impl<'c, const W: usize> Code<'c, W> {
     #[inline]
     pub const fn holds(&self, marking: &[u64; W], need: &[u64; W]) -> bool {
         let (mut word, mut lacking) = (0, 0);
-        while word < W {
+        // Most transitions that lack anything lack it in the first words.
+        while word < W && lacking == 0 {
             let guards = self.guards[word];
             lacking |= !(marking[word] | guards).wrapping_sub(need[word]) & guards;
             word += 1;
@@ -359,6 +390,13 @@ pub const fn minus<const W: usize>(marking: &[u64; W], take: &[u64; W]) -> [u64;
         word += 1;
     }
     left
+}
+
+/// Returns the words at a position.
+#[inline]
+const fn words<const W: usize>(list: &[[u64; W]], at: usize) -> &[u64; W] {
+    debug_assert!(at < list.len(), "the lists are of one system");
+    if at < list.len() { &list[at] } else { &[0; W] }
 }
 
 /// The number of something of a component, given the first numbers of all components.

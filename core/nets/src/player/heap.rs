@@ -2,8 +2,8 @@
 
 use super::LARGEST;
 use super::memory::Packed;
-use super::pack::size;
 use super::program::{Loaded, order};
+use super::size::size;
 use crate::net::data::Net;
 use crate::net::defect::NetError;
 use crate::system::data::{Component, System};

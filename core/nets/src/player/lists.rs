@@ -7,7 +7,12 @@ macro_rules! each_list {
     ($make:ident) => { $make! {
     /// Transitions by row: those of an event, by the state that they need where rows have states,
     /// then by priority and number.
-    entries: Entry<W> [T] = Entry { need: [0; W], delta: [0; W], transition: 0, clock: NONE },
+    entries: Listed [T] = Listed { need: 0, delta: 0, transition: 0, clock: NONE },
+    /// Tokens that must be there for a transition to fire: those of each entry at its own position
+    /// where a marking is a single word, otherwise most of them once.
+    needs: [u64; W] [Y] = [0; W],
+    /// Words added to a marking, modulo 2^64 each, in the same way.
+    deltas: [u64; W] [Z] = [0; W],
     /// The tokens that each transition removes, by its number; empty if there are no clocks.
     takes: [u64; W] [K] = [0; W],
     /// The bounds of each row in `entries`: two numbers, at `2 * (kind * states + state)`; a row
@@ -101,6 +106,8 @@ macro_rules! borrowed {
             pub(super) const fn lengths(&self) -> Lengths {
                 Lengths {
                     entries: self.entries,
+                    needs: self.needs,
+                    deltas: self.deltas,
                     takes: self.takes,
                     rows: self.rows,
                     routes: self.routes,
@@ -135,6 +142,8 @@ macro_rules! owned {
         pub struct Arrays<
             const W: usize,
             const T: usize,
+            const Y: usize,
+            const Z: usize,
             const K: usize,
             const R: usize,
             const O: usize,
@@ -157,6 +166,8 @@ macro_rules! owned {
         impl<
             const W: usize,
             const T: usize,
+            const Y: usize,
+            const Z: usize,
             const K: usize,
             const R: usize,
             const O: usize,
@@ -171,18 +182,25 @@ macro_rules! owned {
             const I: usize,
             const L: usize,
             const M: usize,
-        > Arrays<W, T, K, R, O, D, B, N, P, X, C, E, G, I, L, M>
+        > Arrays<W, T, Y, Z, K, R, O, D, B, N, P, X, C, E, G, I, L, M>
         {
-            /// Packs a system; the lengths are those of [`size_of`].
+            /// Packs a system; the lengths are those of [`size_of`], or those that
+            /// [`exact`](Self::exact) says.
             pub const fn of(system: &crate::system::data::System<'_>) -> Self {
                 let mut it = Self { $( $list: [$nothing; $length], )* words: Words::NOTHING };
                 it.words = pack(system, &mut Lists { $( $list: &mut it.$list, )* });
                 it
             }
 
+            /// The size of what is packed, given the one that [`size_of`] says.
+            pub const fn exact(&self, most: Size) -> Size {
+                let (needs, deltas) = (self.words.needs as usize, self.words.deltas as usize);
+                Size { needs, deltas, ..most }
+            }
+
             /// The packed system.
             pub const fn code(&self, settle: u32, bounded: bool) -> Code<'_, W> {
-                let Words { guards, bounds, initial, restless, control, states, fingerprint } =
+                let Words { guards, bounds, initial, restless, control, states, fingerprint, .. } =
                     self.words;
                 Code {
                     $( $list: &self.$list, )*
@@ -237,12 +255,14 @@ macro_rules! owned {
                     order: alloc::vec::Vec::new(),
                 };
                 it.words = pack(system, &mut Lists { $( $list: &mut it.$list, )* });
+                it.needs.truncate(usize::from(it.words.needs));
+                it.deltas.truncate(usize::from(it.words.deltas));
                 it
             }
 
             /// The packed system; no bound is taken to be proven.
             pub fn code(&self) -> Code<'_, W> {
-                let Words { guards, bounds, initial, restless, control, states, fingerprint } =
+                let Words { guards, bounds, initial, restless, control, states, fingerprint, .. } =
                     self.words;
                 let (settle, bounded) = (super::SETTLE, false);
                 Code {

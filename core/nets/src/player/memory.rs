@@ -1,10 +1,36 @@
 //! The memory of a packed system: arrays, or vectors.
 
-#[cfg(feature = "alloc")]
-use super::code::Size;
-use super::code::{Clock, Code, Entry, Kept, Lists, Mailbox, NONE, Route, Words};
+use super::code::{Clock, Code, Kept, Listed, Lists, Mailbox, NONE, Route, Size, Words};
 use super::field::Field;
 use super::lists::{each_list, owned};
 use super::pack::pack;
 
 each_list!(owned);
+
+/// The type of the arrays of this size.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __arrays {
+    ($size:ident) => {
+        $crate::player::Arrays<
+            { $size.words },
+            { $size.entries },
+            { $size.needs },
+            { $size.deltas },
+            { $size.takes },
+            { $size.rows },
+            { $size.routes },
+            { $size.says },
+            { $size.mailboxes },
+            { $size.components + 1 },
+            { $size.fields },
+            { $size.complements },
+            { $size.clocks },
+            { $size.clears },
+            { $size.ignored },
+            { $size.ignored_where },
+            { $size.kept },
+            { $size.summands },
+        >
+    };
+}

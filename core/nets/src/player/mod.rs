@@ -69,6 +69,7 @@ mod program;
 pub mod proofs;
 mod recorder;
 mod settle;
+pub mod size;
 mod snapshot;
 mod step;
 

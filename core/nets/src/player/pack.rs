@@ -1,131 +1,21 @@
-//! Packs a system: how long its lists are, and what stands in them.
+//! Packs a system: fills its lists.
 
 use super::arcs::{Moved, asked, moved};
-use super::code::{Clock, Entry, Lists, NONE, Route, Size, Words};
+use super::code::{Clock, Lists, NONE, Route, Words};
 use super::fingerprint::fingerprint;
 use super::kept;
-use super::layout::{Used, asks_for_room, lacks_complement, layout, mailbox_of, owns};
+use super::layout::{layout, mailbox_of};
 use super::machine::{machine, needs_state};
 use crate::net::data::{EventId, OutputId};
 use crate::system::data::{Delivery, Of, System};
 
-/// The most of anything that a packed system counts.
-const MOST: usize = u16::MAX as usize - 1;
+/// So many of the needs and deltas before are looked through for an equal one: most repeat nearby,
+/// and the time of packing is linear.
+const NEARBY: usize = 256;
 
-/// How long the lists will be; `None` when one is longer than 65,534.
-pub const fn size(system: &System<'_>) -> Option<Size> {
-    let mut it = Size {
-        words: 1,
-        components: system.components.len(),
-        entries: 0,
-        takes: 0,
-        rows: 0,
-        routes: 0,
-        says: 0,
-        mailboxes: 0,
-        fields: 0,
-        complements: 0,
-        clocks: 0,
-        clears: system.clears.len(),
-        ignored: 0,
-        ignored_where: 0,
-        kept: 0,
-        summands: 0,
-        slots: 0,
-    };
-    let mut used = Used::NOTHING;
-    let (mut component, mut events) = (0, 0);
-    while component < system.components.len() {
-        let net = system.components[component].net;
-        it.fields += net.places.len();
-        it.entries += net.transitions.len();
-        it.ignored += net.ignored.len();
-        let (kept, summands) = kept::count(net);
-        it.kept += kept;
-        it.summands += summands;
-        events += net.events.len();
-        if it.fields > MOST || it.entries > MOST || it.ignored > MOST || events > MOST {
-            return None;
-        }
-        let mut at = 0;
-        while at < net.ignored.len() {
-            it.ignored_where += !net.ignored[at].guard.is_empty() as usize;
-            at += 1;
-        }
-        at = 0;
-        while at < net.places.len() {
-            if owns(system, component, at) {
-                used.place(net.places[at].bound);
-                if lacks_complement(system, component, at) {
-                    used.place(net.places[at].bound);
-                    it.complements += 1;
-                }
-            }
-            at += 1;
-        }
-        let mut at = 0;
-        while at < net.transitions.len() {
-            it.clocks += net.transitions[at].within.is_some() as usize;
-            it.routes += routes(system, component, net.transitions[at].emits);
-            at += 1;
-        }
-        component += 1;
-    }
-    component = 0;
-    while component < system.components.len() {
-        let mut at = 0;
-        while at < system.components[component].net.events.len() {
-            let of = Of { component: component as u16, id: EventId(at as u32) };
-            if let Some(Delivery::Mail { capacity }) = system.delivery(of) {
-                it.mailboxes += 1;
-                it.slots += capacity as usize;
-                used.place(capacity as u32);
-                if asks_for_room(system, of) {
-                    used.place(capacity as u32);
-                }
-            }
-            at += 1;
-        }
-        component += 1;
-    }
-    it.ignored -= it.ignored_where;
-    it.words = used.words();
-    it.takes = if it.clocks == 0 { 0 } else { it.entries };
-    it.says = if it.routes == 0 { 0 } else { it.entries + 1 };
-    it.rows = 2 * (events + system.components.len() + 1) * machine(system).0;
-    let long = it.rows > MOST || it.routes > MOST || it.slots > MOST || it.summands > MOST;
-    if long { None } else { Some(it) }
-}
-
-/// [`size`], in a `const`.
-///
-/// # Panics
-/// When the system is too large: at compile time.
-pub const fn size_of(system: &System<'_>) -> Size {
-    match size(system) {
-        Some(size) => size,
-        None => panic!("at most 65,534 transitions, places, events and links fit into a system"),
-    }
-}
-
-/// To how many events these outputs go.
-const fn routes(system: &System<'_>, component: usize, emits: &[OutputId]) -> usize {
-    let mut count = 0;
-    let mut at = 0;
-    while at < emits.len() {
-        let mut link = 0;
-        while link < system.links.len() {
-            let from = system.links[link].from;
-            count += (from.component as usize == component && from.id.0 == emits[at].0) as usize;
-            link += 1;
-        }
-        at += 1;
-    }
-    count
-}
-
-/// Packs a system. The lists are as long as [`size`] says, `W` is [`Size::words`] or more, and the
-/// system and its nets have no defect.
+/// Packs a system. The lists are as long as [`size`](super::size::size) says, `W` is
+/// [`Size::words`](super::code::Size::words) or more, and the system and its nets have no defect.
+/// Needs and deltas may be fewer: the words say how many.
 pub const fn pack<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) -> Words<W> {
     let (states, control) = machine(system);
     let mut words = Words { states: states as u16, ..Words::NOTHING };
@@ -140,6 +30,7 @@ pub const fn pack<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>)
         }
     }
     entries(system, lists, states, control);
+    arcs(system, lists, &mut words);
     words.restless = restless(system, lists, &words);
     clocks(system, lists);
     say(system, lists);
@@ -228,12 +119,7 @@ const fn rows<const W: usize>(
                 while at < net.transitions.len() {
                     let it = &net.transitions[at];
                     if is_of(it, kind) && (!apart || needs_state(it, state)) {
-                        let Moved { need, delta, take } = moved(system, lists, component, at);
-                        let transition = lists.transitions[component] + at as u16;
-                        if !lists.takes.is_empty() {
-                            lists.takes[transition as usize] = take;
-                        }
-                        lists.entries[entry] = Entry { need, delta, transition, clock: NONE };
+                        lists.entries[entry].transition = lists.transitions[component] + at as u16;
                         insert(system, lists, first, entry);
                         entry += 1;
                     }
@@ -300,17 +186,60 @@ const fn insert<const W: usize>(
     }
 }
 
+/// The component of a number.
+const fn component(firsts: &[u16], number: u16) -> usize {
+    let mut component = 0;
+    while component + 2 < firsts.len() && firsts[component + 1] <= number {
+        component += 1;
+    }
+    component
+}
+
 /// The transition of a number.
 const fn transition<'s>(
     system: &System<'s>,
     firsts: &[u16],
     number: u16,
 ) -> &'s crate::net::data::Transition<'s> {
-    let mut component = 0;
-    while component + 2 < firsts.len() && firsts[component + 1] <= number {
-        component += 1;
-    }
+    let component = component(firsts, number);
     &system.components[component].net.transitions[(number - firsts[component]) as usize]
+}
+
+/// The words of the entries.
+const fn arcs<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>, words: &mut Words<W>) {
+    let mut at = 0;
+    while at < lists.entries.len() {
+        let number = lists.entries[at].transition;
+        let component = component(lists.transitions, number);
+        let of = (number - lists.transitions[component]) as usize;
+        let Moved { need, delta, take } = moved(system, lists, component, of);
+        if !lists.takes.is_empty() {
+            lists.takes[number as usize] = take;
+        }
+        lists.entries[at].need = once(lists.needs, &mut words.needs, &need);
+        lists.entries[at].delta = once(lists.deltas, &mut words.deltas, &delta);
+        at += 1;
+    }
+}
+
+/// The position of these words in a list of so many, to which they are added unless they stand
+/// nearby. Single words are always added: they are as short as a position, and found without one.
+const fn once<const W: usize>(list: &mut [[u64; W]], count: &mut u16, words: &[u64; W]) -> u16 {
+    let end = *count as usize;
+    let mut at = if W == 1 { 0 } else { end };
+    while at > end.saturating_sub(NEARBY) {
+        at -= 1;
+        let mut word = 0;
+        while word < W && list[at][word] == words[word] {
+            word += 1;
+        }
+        if word == W {
+            return at as u16;
+        }
+    }
+    list[end] = *words;
+    *count += 1;
+    end as u16
 }
 
 /// See [`Words::restless`]: the first place that each transition needs which fires at once by
@@ -327,7 +256,8 @@ const fn restless<const W: usize>(
         let it = transition(system, lists.transitions, entry.transition);
         if is_of(it, Kind::AtOnce) {
             let mut field = 0;
-            while field < lists.fields.len() && lists.fields[field].of(&entry.need) == 0 {
+            let need = &lists.needs[entry.need as usize];
+            while field < lists.fields.len() && lists.fields[field].of(need) == 0 {
                 field += 1;
             }
             if field < lists.fields.len() {
@@ -354,7 +284,7 @@ const fn clocks<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
             };
             lists.entries[at].clock = clock as u16;
             lists.clocks[clock] = Clock {
-                need: lists.entries[at].need,
+                need: lists.needs[lists.entries[at].need as usize],
                 entry: at as u16,
                 event: it.on.is_some(),
                 earliest: within.earliest,

@@ -2,7 +2,7 @@
 
 use super::CATCH_UP;
 use super::code::{Code, Entry, bounds};
-use super::observer::{Anyone, Firing, Observer};
+use super::observer::{Anyone, Observer};
 use super::outcome::{Advanced, Outcome, Round, Why};
 use super::program::{Kind, Program, StateMachine};
 use crate::net::data::{EventId, PlaceId, TransitionId};
@@ -134,15 +134,17 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
             let outcome = self.deliver(kind as u16, event, carries, observer);
             return self.and_rest(outcome, observer);
         }
-        let can = |it: &Entry<W>| self.can(code, it) && self.open(code, it);
-        let Some(entry) = code.first(kind, &self.marking, can).copied() else {
+        let can = |it: &Entry<'_, W>| self.can(code, it) && self.open(code, it);
+        let Some(at) = code.first(kind, &self.marking, can) else {
             observer.on_ignore(id, carries);
             return Outcome::Ignored { why: self.why(kind) };
         };
         let at_once = code.first_urgent()..code.timed();
-        self.fire_alone(&entry, Some(id), event, carries, observer);
+        let Some(transition) = self.fire_alone(at, Some(id), event, carries, observer) else {
+            return Outcome::Ignored { why: Why::NotEnabled }; // no entry stands there
+        };
         let settled = self.settle(at_once, carries, observer);
-        Outcome::Fired { transition: entry.transition, settled }
+        Outcome::Fired { transition, settled }
     }
 
     /// The same outcome, once all nets have settled.
@@ -194,8 +196,8 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
                 refused = [false; C];
                 continue;
             }
-            let (wait, entry) = match self.due(&refused) {
-                Some((wait, entry)) if u64::from(wait) <= left => (wait, entry),
+            let (wait, at) = match self.due(&refused) {
+                Some((wait, at)) if u64::from(wait) <= left => (wait, at),
                 _ => {
                     self.pass(left);
                     break;
@@ -206,13 +208,15 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
                 break;
             }
             self.pass(u64::from(wait));
-            if let Some(more) = self.fire_due(&entry, observer) {
+            if let Some(more) = self.fire_due(at, observer) {
                 let settled = self.rest(observer);
                 advanced.fired =
                     advanced.fired.saturating_add(1).saturating_add(more).saturating_add(settled);
                 advanced.behind = self.is_cut_short(settled);
                 refused = [false; C];
-            } else if let Some(refused) = refused.get_mut(usize::from(entry.clock)) {
+            } else if let Some(entry) = self.program.code().entries.get(usize::from(at))
+                && let Some(refused) = refused.get_mut(usize::from(entry.clock))
+            {
                 *refused = true;
             }
         }
@@ -288,10 +292,10 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     /// Whether this transition could fire now, its event offered.
     pub fn enabled(&self, transition: impl Into<Of<TransitionId>>) -> bool {
         let (code, transition) = (self.program.code(), transition.into());
-        let mut entries = code.entries.iter();
+        let mut entries = (0..code.entries.len()).filter_map(|at| code.entry(at));
         entries
             .find(|it| code.transition(it.transition) == transition)
-            .is_some_and(|it| self.can(code, it) && self.open(code, it))
+            .is_some_and(|it| self.can(code, &it) && self.open(code, &it))
     }
 
     /// The marked place of a component that is a state machine, to be matched on; `N` is its
@@ -331,29 +335,13 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         }
     }
 
-    /// Fires a transition of a net alone.
-    #[inline]
-    pub(super) fn fire_alone(
-        &mut self,
-        entry: &Entry<W>,
-        on: Option<Of<EventId>>,
-        event: Option<&P::Event>,
-        carries: M,
-        observer: &mut impl Observer<P, M>,
-    ) {
-        self.apply(entry);
-        let id = self.program.code().transition(entry.transition);
-        let (program, at) = (&self.program, self.now);
-        observer.on_fire(&Firing { id, on, event, carries, at, program });
-    }
-
     /// Whether the tokens that a transition needs are there, and there is room for those that it
     /// gives.
     #[inline]
-    pub(super) fn can(&self, code: &Code<'_, W>, entry: &Entry<W>) -> bool {
-        code.holds(&self.marking, &entry.need)
+    pub(super) fn can(&self, code: &Code<'_, W>, entry: &Entry<'_, W>) -> bool {
+        code.holds(&self.marking, entry.need)
             && (Self::bounded(code)
-                || code.holds(&code.bounds, &super::code::plus(&self.marking, &entry.delta)))
+                || code.holds(&code.bounds, &super::code::plus(&self.marking, entry.delta)))
     }
 
     /// Why no transition on this event fires.
@@ -361,8 +349,9 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     pub(super) fn why(&self, kind: usize) -> Why<u16> {
         let code = self.program.code();
         if C > 0 || !Self::bounded(code) {
-            let holds = |it: &Entry<W>| code.holds(&self.marking, &it.need);
-            if let Some(entry) = code.first(kind, &self.marking, holds) {
+            let holds = |it: &Entry<'_, W>| code.holds(&self.marking, it.need);
+            let first = code.first(kind, &self.marking, holds);
+            if let Some(entry) = first.and_then(|at| code.entries.get(usize::from(at))) {
                 let number = usize::from(entry.clock);
                 return match (code.clocks.get(number), self.clocks.get(number)) {
                     (Some(clock), Some(&elapsed)) if elapsed < clock.earliest => {

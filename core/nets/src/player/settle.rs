@@ -1,9 +1,11 @@
 //! Settling: transitions that fire at once by themselves.
 
-use super::code::{Code, Entry};
-use super::observer::Observer;
+use super::code::Code;
+use super::observer::{Firing, Observer};
 use super::player::Player;
 use super::program::Program;
+use crate::net::data::EventId;
+use crate::system::data::Of;
 use core::ops::Range;
 
 impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Copy + Default>
@@ -33,9 +35,9 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         !(Self::ALONE && Self::bounded(code)) && fired >= Self::longest(code) && !self.settled(code)
     }
 
-    /// The transition of a net alone that fires next at once by itself.
+    /// The position of the transition of a net alone that fires next at once by itself.
     #[inline]
-    fn urgent<'c>(&self, code: &Code<'c, W>) -> Option<&'c Entry<W>> {
+    fn urgent(&self, code: &Code<'_, W>) -> Option<u16> {
         code.first(code.first_urgent(), &self.marking, |it| self.can(code, it))
     }
 
@@ -63,8 +65,8 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
                 if code.rests(&self.marking) {
                     break;
                 }
-                let Some(&entry) = self.urgent(code) else { break };
-                self.fire_alone(&entry, None, None, carries, observer);
+                let Some(at) = self.urgent(code) else { break };
+                self.fire_alone(at, None, None, carries, observer);
                 fired = fired.saturating_add(1);
             }
             debug_assert!(self.settled_if_proven(), "it settles within the steps that are proven");
@@ -89,21 +91,30 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         fired
     }
 
-    /// Fires a transition that is due, with what follows from it; how many more fired, or `None`
-    /// when a mailbox on the way is full and nothing has happened.
+    /// Fires the transition at this position of a net alone; its number.
     #[inline]
-    pub(super) fn fire_due(
+    pub(super) fn fire_alone(
         &mut self,
-        entry: &Entry<W>,
+        at: u16,
+        on: Option<Of<EventId>>,
+        event: Option<&P::Event>,
+        carries: M,
         observer: &mut impl Observer<P, M>,
-    ) -> Option<u32> {
-        let code = self.program.code();
-        if Self::is_alone(code) {
-            self.fire_alone(entry, None, None, M::default(), observer);
-            return Some(0);
+    ) -> Option<u16> {
+        let number = self.apply(at)?;
+        let id = self.program.code().transition(number);
+        let (program, at) = (&self.program, self.now);
+        observer.on_fire(&Firing { id, on, event, carries, at, program });
+        Some(number)
+    }
+
+    /// Fires the transition at this position, which is due, with what follows from it; how many
+    /// more fired, or `None` when a mailbox on the way is full and nothing has happened.
+    #[inline]
+    pub(super) fn fire_due(&mut self, at: u16, observer: &mut impl Observer<P, M>) -> Option<u32> {
+        if Self::is_alone(self.program.code()) {
+            return self.fire_alone(at, None, None, M::default(), observer).map(|_| 0);
         }
-        debug_assert!(usize::from(entry.clock) < code.clocks.len(), "it waited for an instant");
-        let at = code.clocks.get(usize::from(entry.clock))?.entry;
         self.fire_whole(at, observer)
     }
 }

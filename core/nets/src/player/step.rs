@@ -66,10 +66,10 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         let (mut left, mut given) = (self.marking, [0; W]);
         let mut step = Stepped { ignored: ones(events.len()), ..Stepped::default() };
         for at in (0..usize::MAX).map_while(|at| self.program.ordered(at)) {
-            let Some(entry) = code.entries.get(usize::from(at)) else { continue };
+            let Some(entry) = code.entry(usize::from(at)) else { continue };
             debug_assert!(self.fits(&left), "what is left was there");
-            if self.takes_part(code, entry, &left, events) {
-                (left, given) = self.applied(entry, &left, &given);
+            if self.takes_part(code, &entry, &left, events) {
+                (left, given) = self.applied(&entry, &left, &given);
                 // Tested one by one: the sum of many gifts could outgrow a field and disturb
                 // others.
                 if !code.holds(&code.bounds, &given) {
@@ -83,22 +83,22 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         }
         let mut again = (self.marking, [0; W]);
         for at in (0..usize::MAX).map_while(|at| self.program.ordered(at)) {
-            let Some(entry) = code.entries.get(usize::from(at)) else { continue };
-            if !self.takes_part(code, entry, &again.0, events) {
+            let Some(entry) = code.entry(usize::from(at)) else { continue };
+            if !self.takes_part(code, &entry, &again.0, events) {
                 continue;
             }
-            again = self.applied(entry, &again.0, &again.1);
+            again = self.applied(&entry, &again.0, &again.1);
             if let Some(elapsed) = self.clocks.get_mut(usize::from(entry.clock)) {
                 *elapsed = 0;
             }
             step.fired = step.fired.saturating_add(1);
             for (event, bit) in events.iter().zip((0..u64::BITS).map(|bit| 1_u64.wrapping_shl(bit)))
             {
-                if is_on(code, entry, event) {
+                if is_on(code, &entry, event) {
                     step.ignored &= !bit;
                 }
             }
-            let event = events.iter().find(|event| is_on(code, entry, *event));
+            let event = events.iter().find(|event| is_on(code, &entry, *event));
             let id = code.transition(entry.transition);
             observer.on_fire(&Firing {
                 id,
@@ -119,11 +119,11 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     fn takes_part(
         &self,
         code: &Code<'_, W>,
-        entry: &Entry<W>,
+        entry: &Entry<'_, W>,
         left: &[u64; W],
         events: &[P::Event],
     ) -> bool {
-        if !code.holds(left, &entry.need) || !self.open(code, entry) {
+        if !code.holds(left, entry.need) || !self.open(code, entry) {
             return false;
         }
         let by_itself = code.first_urgent()..code.timed().saturating_add(1);
@@ -133,14 +133,19 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     }
 
     /// Returns the tokens left and the tokens given after one more transition.
-    fn applied(&self, entry: &Entry<W>, left: &[u64; W], given: &[u64; W]) -> ([u64; W], [u64; W]) {
+    fn applied(
+        &self,
+        entry: &Entry<'_, W>,
+        left: &[u64; W],
+        given: &[u64; W],
+    ) -> ([u64; W], [u64; W]) {
         let take = self.program.takes(entry.transition);
-        (minus(left, &take), plus(&plus(given, &entry.delta), &take))
+        (minus(left, &take), plus(&plus(given, entry.delta), &take))
     }
 }
 
 /// Whether an entry is on this event.
-fn is_on<const W: usize>(code: &Code<'_, W>, entry: &Entry<W>, event: &impl Kind) -> bool {
+fn is_on<const W: usize>(code: &Code<'_, W>, entry: &Entry<'_, W>, event: &impl Kind) -> bool {
     let Some(kind) = code.event_number(event.id()) else { return false };
     let on = code.kinds(kind..kind.saturating_add(1));
     on.iter().any(|it| it.transition == entry.transition)

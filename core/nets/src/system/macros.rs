@@ -170,35 +170,19 @@ macro_rules! system {
                 ),
                 clears: &system_source::clears::<{ CLEARS.len() }>(NAME, COMPONENTS, CLEARS),
             };
-            /// How many words, clocks and slots its player has, and how long its packed lists
-            /// are.
-            pub const SIZE: system_code::Size = {
+            const MOST: system_code::Size = {
                 system_source::check::<
                     { SYSTEM.links.len() },
                     { SYSTEM.bindings.len() },
                     { COMPONENTS.len() },
                 >(&SYSTEM);
-                $crate::player::pack::size_of(&SYSTEM)
+                $crate::player::size::size_of(&SYSTEM)
             };
+            /// How many words, clocks and slots its player has, and how long its packed lists
+            /// are.
+            pub const SIZE: system_code::Size = <$crate::__arrays!(MOST)>::of(&SYSTEM).exact(MOST);
             // A static: of a constant each crate that uses it may keep a copy.
-            static ARRAYS: $crate::player::Arrays<
-                { SIZE.words },
-                { SIZE.entries },
-                { SIZE.takes },
-                { SIZE.rows },
-                { SIZE.routes },
-                { SIZE.says },
-                { SIZE.mailboxes },
-                { SIZE.components + 1 },
-                { SIZE.fields },
-                { SIZE.complements },
-                { SIZE.clocks },
-                { SIZE.clears },
-                { SIZE.ignored },
-                { SIZE.ignored_where },
-                { SIZE.kept },
-                { SIZE.summands },
-            > = $crate::player::Arrays::of(&SYSTEM);
+            static ARRAYS: $crate::__arrays!(SIZE) = $crate::player::Arrays::of(&SYSTEM);
             static CODE: system_code::Code<'static, { SIZE.words }> =
                 ARRAYS.code($crate::player::SETTLE, false);
 

@@ -28,7 +28,7 @@ fn root_code_numbers(
 
 #[unsafe(no_mangle)]
 fn root_code_enabled(code: &Code<'_, W>, marking: &[u64; W], kind: usize) -> [bool; 2] {
-    let first = code.first(kind, marking, |it| code.holds(marking, &it.need));
+    let first = code.first(kind, marking, |it| code.holds(marking, it.need));
     [first.is_some(), code.row(kind, marking).is_some()]
 }
 

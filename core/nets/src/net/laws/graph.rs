@@ -156,10 +156,10 @@ impl<const W: usize> Graph<W> {
                     // As `Code::holds` and `Code::after`: no field borrows from another, so nothing
                     // wraps.
                     let entry = &code.entries[by as usize];
+                    let need = &code.needs[entry.need as usize];
                     let mut word = 0;
                     while word < W
-                        && ((marking[word] | code.guards[word]) - entry.need[word])
-                            & code.guards[word]
+                        && ((marking[word] | code.guards[word]) - need[word]) & code.guards[word]
                             == code.guards[word]
                     {
                         word += 1;
@@ -181,11 +181,12 @@ impl<const W: usize> Graph<W> {
                         graph.conflicts(from, by, kind);
                         continue;
                     }
+                    let delta = &code.deltas[entry.delta as usize];
                     let mut after = marking;
                     let mut fits = true;
                     word = 0;
                     while word < W {
-                        after[word] = (marking[word] as u128 + entry.delta[word] as u128) as u64;
+                        after[word] = (marking[word] as u128 + delta[word] as u128) as u64;
                         let guards = code.guards[word];
                         fits =
                             fits && ((code.bounds[word] | guards) - after[word]) & guards == guards;

@@ -85,7 +85,8 @@ impl Moves {
     ) -> bool {
         let mut at = 0;
         while at < self.at_once {
-            if code.holds(marking, &code.entries[self.by[at] as usize].need) {
+            let need = code.entries[self.by[at] as usize].need;
+            if code.holds(marking, &code.needs[need as usize]) {
                 return false;
             }
             at += 1;

@@ -82,7 +82,7 @@ impl<const W: usize> Graph<W> {
         by: u16,
     ) -> Violation<'n, W> {
         let entry = &code.entries[by as usize];
-        let after = plus(&self.markings[from], &entry.delta);
+        let after = plus(&self.markings[from], &code.deltas[entry.delta as usize]);
         let mut at = 0;
         while held(code, &after, at) <= net.places[at].bound as u64 {
             at += 1;

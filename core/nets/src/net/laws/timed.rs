@@ -28,7 +28,8 @@ impl<const W: usize> Graph<W> {
             }
             at += 1;
         }
-        let after = plus(&self.markings[from], &code.entries[first as usize].delta);
+        let delta = code.entries[first as usize].delta;
+        let after = plus(&self.markings[from], &code.deltas[delta as usize]);
         if code.holds(&code.bounds, &after) {
             let way = Move { from, by: first, kind: IN_TIME, group: self.fired };
             self.fire(code, cuts, moves, &way, zone, &after);

@@ -122,7 +122,7 @@ pub fn the_executor_refines_the_textbook() {
     };
     let components = [Component::alone(&net)];
     let system = System::alone(&components);
-    let arrays = Arrays::<1, 2, 0, 6, 0, 0, 0, 2, 2, 0, 0, 0, 0, 0, 0, 0>::of(&system);
+    let arrays = Arrays::<1, 2, 2, 2, 0, 6, 0, 0, 0, 2, 2, 0, 0, 0, 0, 0, 0, 0>::of(&system);
     let code = arrays.code(MOST, false);
     let marking = [code.fields[0].tokens(tokens[0]) + code.fields[1].tokens(tokens[1])];
     let program = Loaded::<1> { system, code, order: &[] };

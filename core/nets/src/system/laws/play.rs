@@ -117,7 +117,7 @@ impl<const W: usize> Play<W> {
             };
             if let Some(at) = fires {
                 let entry = &code.entries[at as usize];
-                self.marking = plus(&self.marking, &entry.delta);
+                self.marking = plus(&self.marking, &code.deltas[entry.delta as usize]);
                 fired += 1;
                 let number = entry.transition as usize;
                 let (first, end) = if code.says.is_empty() {
@@ -219,15 +219,19 @@ impl<const W: usize> Play<W> {
         let mut at = first;
         while at < end {
             let entry = &code.entries[at as usize];
+            let need = &code.needs[entry.need as usize];
             // As `Code::holds`, without its calls: no field borrows from another.
             let mut word = 0;
             while word < W
-                && ((self.marking[word] | code.guards[word]) - entry.need[word]) & code.guards[word]
+                && ((self.marking[word] | code.guards[word]) - need[word]) & code.guards[word]
                     == code.guards[word]
             {
                 word += 1;
             }
-            if word == W && code.holds(&code.bounds, &plus(&self.marking, &entry.delta)) {
+            if word == W
+                && code
+                    .holds(&code.bounds, &plus(&self.marking, &code.deltas[entry.delta as usize]))
+            {
                 return Some(at);
             }
             at += 1;
