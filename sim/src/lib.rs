@@ -22,6 +22,7 @@ pub mod run;
 pub mod setup;
 pub mod solver;
 pub mod story;
-pub mod streams;
 pub mod trace;
 pub mod world;
+
+pub use cotama_streams as streams;

@@ -66,6 +66,8 @@ impl core::error::Error for GridError {}
 /// assert_eq!((hit.distance, hit.kind, hit.cosine), (1.25, Kind::Wall, 1.0));
 /// assert_eq!(grid.hit(&ray, 1.0, Sense::Light), None);
 /// assert_eq!(grid.clearance(Point::new(1.0, 0.75), 8.0), 0.5);
+/// let walls = |x: f64| grid.walls_between(ray.from, Point::new(x, 0.75));
+/// assert_eq!([walls(1.4), walls(1.6), walls(9.0)], [0, 1, 1]);
 /// ```
 #[derive(Clone, Debug)]
 pub struct Grid {
@@ -197,6 +199,20 @@ impl Surface for Grid {
     fn clearance(&self, at: Point, most: f64) -> f64 {
         let most = most.min(self.bounds().margin(at));
         self.blocked.nearest(self.in_cells(at), most * self.per_metre) * self.resolution
+    }
+
+    fn walls_between(&self, a: Point, b: Point) -> usize {
+        let (from, to) = (self.in_cells(a), self.in_cells(b));
+        let along = to - from;
+        // Two looks in the length of a cell, and of lines from afar no more than the map has.
+        let most = 4 * (self.width + self.height);
+        let steps = ((2.0 * along.norm()).ceil() as usize).clamp(1, most);
+        let is_wall = |step: usize| {
+            let at = from + along * (step as f64 / steps as f64);
+            let inside = at.x >= 0.0 && at.y >= 0.0;
+            inside && self.cell(at.x as usize, at.y as usize) == Cell::Occupied
+        };
+        (1..=steps).filter(|step| is_wall(*step) && !is_wall(step - 1)).count()
     }
 
     fn is_free(&self, footprint: &Footprint, pose: &Pose) -> bool {

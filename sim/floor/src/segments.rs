@@ -132,13 +132,6 @@ impl Segments {
         Ok(Self { bounds, origin, per_metre, octants, cover, solids })
     }
 
-    /// Returns how many walls a straight line between two points passes, as radio waves do.
-    pub fn walls_between(&self, a: Point, b: Point) -> usize {
-        let wanted = |it: &&Segment| matches!(it.kind, Kind::Wall | Kind::Door);
-        let all = self.cover.segments().iter().filter(wanted);
-        all.filter(|it| do_cross([it.from, it.to], [a, b])).count()
-    }
-
     fn in_cells(&self, at: Point) -> Point {
         Point::from((at - self.origin) * self.per_metre)
     }
@@ -242,6 +235,12 @@ impl Surface for Segments {
             return 0.0;
         }
         self.distance(at, most, Sense::Sound)
+    }
+
+    fn walls_between(&self, a: Point, b: Point) -> usize {
+        let wanted = |it: &&Segment| matches!(it.kind, Kind::Wall | Kind::Door);
+        let all = self.cover.segments().iter().filter(wanted);
+        all.filter(|it| do_cross([it.from, it.to], [a, b])).count()
     }
 
     fn is_free(&self, footprint: &Footprint, pose: &Pose) -> bool {

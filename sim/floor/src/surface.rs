@@ -120,6 +120,10 @@ pub trait Surface {
     /// the floor counts.
     fn clearance(&self, at: Point, most: f64) -> f64;
 
+    /// Returns how many walls and doors a straight line between two points passes, as radio waves
+    /// do; on a map of cells, how many times it enters occupied ones.
+    fn walls_between(&self, a: Point, b: Point) -> usize;
+
     /// Whether a body finds room at a pose. It may touch things.
     fn is_free(&self, footprint: &Footprint, pose: &Pose) -> bool;
 }
