@@ -62,7 +62,7 @@ fn described(page: &str, heading: &str) -> BTreeSet<String> {
 }
 
 /// The tables of a robot's file, where they stand in the schema, and the lines that begin them.
-const ROBOT_TABLES: [(&str, &str, &str); 12] = [
+const ROBOT_TABLES: [(&str, &str, &str); 14] = [
     ("the file", "", "format = \"cotama-robot/1\""),
     ("[body]", "/properties/body", "[body]"),
     ("[hardware.NAME]", "/properties/hardware/additionalProperties", "[hardware.base]"),
@@ -79,6 +79,8 @@ const ROBOT_TABLES: [(&str, &str, &str); 12] = [
     ("[[failure]]", "/properties/failure/items", "[[failure]]"),
     ("[failure.restart]", "/properties/failure/items/properties/restart", "[failure.restart]"),
     ("[failure.set]", "/properties/failure/items/properties/set", "[failure.set]"),
+    ("[failure.ask]", "/properties/failure/items/properties/ask", "[failure.ask]"),
+    ("[failure.mask]", "/properties/failure/items/properties/mask", "[failure.mask]"),
 ];
 
 #[test]
@@ -93,6 +95,7 @@ fn the_page_of_robots_agrees_with_the_schema_and_the_reader() {
     assert!(cart.ends_with(inline));
     let tables = "[failure.set]\nspeed_permille = 600\n[failure.restart]\n\
         module = \"scan\"\ntimes = 1\n\
+        [failure.ask]\ntimes = 1\n[failure.mask]\nflags = [\"x\"]\n\
         [module.scan.parameter.n]\ndefault = 1\n[supervisors]\nlocal = \"x.json\"\n";
     let cart = cart.replace(inline, tables);
     let schema = schema("robot");

@@ -55,6 +55,8 @@ pub struct Chain<'t> {
     pub reaction: Vec<&'t Fired>,
     /// The setting that was made first, if any.
     pub set: Option<&'t Fired>,
+    /// The mask that was made first, or is on the operator's order, if any.
+    pub mask: Option<&'t Fired>,
     /// When the operator was asked about it, in µs.
     pub asked_us: Option<u64>,
     /// Words of the operator, if the robot did not go on alone after it.
@@ -167,6 +169,11 @@ impl<'t> Story<'t> {
                 {
                     chain.set.get_or_insert(it);
                 }
+                if it.masks.is_some()
+                    && let Some(chain) = it.cause.and_then(|it| self.chain(it))
+                {
+                    chain.mask.get_or_insert(it);
+                }
                 let acts = !["gom", "cs", "permit"].contains(&it.net.as_str());
                 if let Some(chain) = it.cause.filter(|_| acts).and_then(|it| self.chain(it))
                     && chain.reaction.first().is_none_or(|first| first.t_us == it.t_us)
@@ -244,6 +251,7 @@ impl<'t> Chain<'t> {
             decision: None,
             reaction: Vec::new(),
             set: None,
+            mask: None,
             asked_us: None,
             operator: Vec::new(),
             planned_us: None,
@@ -299,7 +307,12 @@ impl Point<'_> {
             Class::Record => "it is recorded only",
         };
         let by = decision.transition.as_ref().map_or_else(String::new, |it| format!(" ({it})"));
+        // Names of its lines say whether a row asks first.
+        let first = decision.transition.as_ref().is_some_and(|it| it.starts_with("ask_"));
         let why = chain.diagnosis.map_or_else(String::new, |it| {
+            if first {
+                return format!("{}, but its row asks first, so ", it.severity.name());
+            }
             let left = match it.by_availability {
                 Class::Adapter => ", and another set of modules is left",
                 Class::Local => ", and only another autonomy mode is left",
@@ -319,7 +332,7 @@ impl Point<'_> {
             (None, _) => "nothing runs any more".into(),
         });
         let Some(chain) = self.chain() else { return runs };
-        let first = chain.reaction.first().copied().or(chain.set)?;
+        let first = chain.reaction.first().copied().or(chain.set).or(chain.mask)?;
         let by: Vec<_> = match &chain.reaction[..] {
             [] => vec![first.line()],
             all => all.iter().map(|it| it.line()).collect(),
@@ -327,6 +340,8 @@ impl Point<'_> {
         let runs = runs.unwrap_or_else(|| "the same modules run on".into());
         let set = chain.set.and_then(|it| it.sets.as_deref());
         let set = set.map_or_else(String::new, |it| format!(", with {it}"));
+        let mask = chain.mask.and_then(|it| it.masks.as_deref());
+        let mask = mask.map_or_else(String::new, |it| format!("; {it}"));
         let again = if chain.planned_us.is_some() { "; the rest is planned again" } else { "" };
         let later = chain.asked_us.filter(|&it| it > first.t_us);
         let asked =
@@ -334,7 +349,7 @@ impl Point<'_> {
         let said: Vec<_> = chain.operator.iter().map(|it| said(answer(it))).collect();
         let said: String = said.iter().flat_map(|it| ["; ", it.as_str()]).collect();
         Some(format!(
-            "after {}, {}: {runs}{set}{again}{asked}{said}",
+            "after {}, {}: {runs}{set}{mask}{again}{asked}{said}",
             self.since(first.t_us),
             by.join(" ")
         ))

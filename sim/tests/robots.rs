@@ -4,7 +4,7 @@
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, embedded};
-use cotama_models::robots::{Decision, Moment, RobotFile};
+use cotama_models::robots::{Decision, Moment, Motion, RobotFile};
 use cotama_sim::options::{FaultChoice, Options};
 use cotama_sim::robots::{Driven, Injection, Run, Script};
 use cotama_sim::run::Outcome;
@@ -161,6 +161,100 @@ fn a_loss_that_comes_back_is_used_again_by_the_next_start() {
     assert_eq!(drives, [&"Follow.Full", &"Follow.Low", &"Follow.Full", &"Follow.Full"]);
     let causes: Vec<_> = run.plans.iter().map(|it| it.cause.text(&mission)).collect();
     assert_eq!(causes, ["start", "no depth image (CAM1)", "camera back"]);
+}
+
+/// A shift of the transport robot with more in the row of a flag.
+fn shift_with(flag: &str, more: &str) -> Mission {
+    let flags = format!("flags = [\"{flag}\"]");
+    let robot = embedded_robot("transport").replace(&flags, &format!("{flags}\n{more}"));
+    let robot = RobotFile::parse("transport.toml", &robot).unwrap_or_else(|it| panic!("{it}"));
+    let shift = embedded::mission("shift").unwrap();
+    Mission::parse_under(shift.name, shift.text, Some(robot)).unwrap()
+}
+
+#[test]
+fn a_row_that_asks_first_stops_the_robot_and_adapts_once_the_operator_is_done() {
+    let mission = shift_with("depth_late", "ask = { times = 1 }");
+    let run = failing(&mission, "CAM1", 30_000);
+    assert_eq!((run.outcome, run.operator_requests), (Outcome::Completed, 1));
+    assert_eq!(run.conduct[0].decided.unwrap().1, Decision::Ask);
+    let robot = mission.robot().unwrap().robot();
+    let ran = run.configurations.iter().map(|it| it.1.map(|it| &robot.configurations[it].name));
+    let ran: Vec<_> = ran.map(|it| it.map_or("", String::as_str)).collect();
+    let asked = ran.iter().skip(1).position(|it| it.is_empty()).unwrap() + 1;
+    assert_eq!(ran[asked - 1], "Follow.Full");
+    assert!(ran[asked..].iter().all(|it| *it != "Follow.Full"), "{ran:?}");
+}
+
+#[test]
+fn a_flag_that_the_operator_masks_asks_him_again_only_when_the_mask_is_over() {
+    let requests = |mask: &str| {
+        let mission = shift_with("load_shift", mask);
+        let at = |x_mm| Injection {
+            when: Moment::Place(Millimetres(x_mm)),
+            failure: row(&mission, "LOD1"),
+            until: None,
+        };
+        let script = Script { injections: vec![at(20_000), at(60_000)], ..Script::default() };
+        Driven::new(&mission).unwrap().run(&script).unwrap().operator_requests
+    };
+    assert_eq!(requests(""), 2);
+    assert_eq!(requests("mask = { flags = [\"load_shift\"], on = \"order\" }"), 1);
+    let for_10_s = "mask = { flags = [\"load_shift\"], on = \"order\", lasts_ms = 10_000 }";
+    assert_eq!(requests(for_10_s), 2);
+}
+
+#[test]
+fn a_report_tells_what_was_asked_first_and_what_is_masked() {
+    let more = "ask = { times = 1 }\nmask = { flags = [\"depth_late\"], on = \"order\" }";
+    let mission = shift_with("depth_late", more);
+    let when = Moment::Place(Millimetres(30_000));
+    let injections = vec![Injection { when, failure: row(&mission, "CAM1"), until: None }];
+    let script = Script { injections, ..Script::default() };
+    let mut records: Vec<Record> = Vec::new();
+    let ready = Driven::new(&mission).unwrap();
+    ready.run_recorded(&script, Millis(1_000), &mut records).unwrap();
+    let points = cotama_sim::story::points(&records);
+    let decided = points[1].decided().unwrap();
+    assert!(decided.contains("medium, but its row asks first, so"), "{decided}");
+    let done = points[1].done().unwrap();
+    assert!(done.contains("; mask `depth_late` on his order"), "{done}");
+}
+
+/// The longest time from a failure to the reaction of a supervisor, failure by failure at many
+/// places, and how far each is within the time that its row allows.
+fn reaction_times(mission: &Mission) -> Vec<(String, u64, u64)> {
+    let robot = mission.robot().unwrap().robot();
+    let ready = Driven::new(mission).unwrap();
+    let mut all = Vec::new();
+    for (number, it) in robot.failures.iter().enumerate() {
+        // What shows in motion alone is seen where the robot moves.
+        let is_seen = !matches!(it.motion, Motion::Blocked | Motion::Slowed(_) | Motion::Mindless);
+        let Some(within) = robot.reacts_within(number).filter(|_| is_seen) else { continue };
+        let taken = (0..40).filter_map(|place| {
+            let when = Moment::At(Millis(1_000 + 3_170 * place));
+            let injections = vec![Injection { when, failure: number, until: None }];
+            let run = ready.run(&Script { injections, ..Script::default() }).unwrap();
+            let it = run.conduct.first()?;
+            Some(it.answered?.0 - it.injected.0)
+        });
+        all.extend(taken.max().map(|most| (it.id.clone(), most, within.0)));
+    }
+    all
+}
+
+#[test]
+fn no_reaction_takes_longer_than_its_row_allows_and_some_take_as_long() {
+    let delivery = embedded::mission("delivery").unwrap();
+    let delivery = Mission::parse(delivery.name, delivery.text).unwrap();
+    for (mission, answered) in [(&*SHIFT, 7), (&*PATROL, 1), (&delivery, 24)] {
+        let all = reaction_times(mission);
+        // What fails in the middle of a period is looked at as long later.
+        let period = mission.robot().unwrap().robot().body.as_ref().unwrap().period.0;
+        assert!(all.iter().all(|it| it.1 + period <= it.2), "{all:?}");
+        assert!(all.iter().any(|it| it.1 + period == it.2), "{all:?}");
+        assert_eq!(all.len(), answered, "{all:?}");
+    }
 }
 
 fn embedded_robot(name: &str) -> String {

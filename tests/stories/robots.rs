@@ -64,11 +64,12 @@ fn nobody_stops(robot: &str, faults: &[String]) -> bool {
 
 /// Reasons for which a drawn robot is refused. That nothing leads to a configuration follows from
 /// severities, which the other reading does not look at.
-const REASONS: [&str; 6] = [
+const REASONS: [&str; 7] = [
     "stands on no hardware",
     "never runs",
     "starts",
     "nobody to ask",
+    "nobody orders",
     "nothing leads there while it can run",
     "losses make a difference",
 ];

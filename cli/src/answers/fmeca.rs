@@ -80,6 +80,13 @@ pub(crate) struct FmecaRow<'a> {
     /// The report to the contextual supervisor; null where nothing sees it, or of a file.
     pub(crate) report: Option<&'a str>,
     pub(crate) reaction: &'a str,
+    /// The rounds of a robot's supervisors in which its reaction is done at worst, from the period
+    /// in which it is told; the requirements CS1, CS2, CS5 and AS4 of `cotama check` say so. Null
+    /// where nothing sees it, or of a file.
+    pub(crate) reaction_rounds: Option<u64>,
+    /// The longest time from the failure to the end of its reaction, if nothing else fails, without
+    /// what the operator takes: latency, what is tried first, and rounds. Null without a body too.
+    pub(crate) reaction_ms: Option<u64>,
     /// The mean time between failures, in thousandths of an hour.
     pub(crate) mtbf_mh: u64,
     /// How well the rate is known: `stated`, `inferred` or `assumed`.

@@ -3,9 +3,9 @@
 use super::DRAFT;
 use super::parts::{choice, flag, id, integer, named, table, tables, text, with, word};
 use cotama_models::robots::known::{
-    BODY_SPEEDS, COEFFICIENTS, COSTS, FORMAT, HOLDS, MAX_PARAMETERS, MODES, MOTIONS, PERIODS,
-    PERSISTENCES, POSITIVE, POWERS, RADII, RANKS, RESTARTS, SETTINGS, SEVERITIES, SLOWED, SPEEDS,
-    TIMES, UNITS, VALUES,
+    ASKS, BODY_SPEEDS, COEFFICIENTS, COSTS, FORMAT, HOLDS, MASKS, MAX_PARAMETERS, MODES, MOTIONS,
+    PERIODS, PERSISTENCES, POSITIVE, POWERS, RADII, RANKS, RESTARTS, SETTINGS, SEVERITIES, SLOWED,
+    SPEEDS, TIMES, TRIES, UNITS, UNWATCHED, VALUES,
 };
 use cotama_models::robots::{MAX_CONFIGURATIONS, MAX_FAILURES, MAX_FLAGS, MAX_PARTS};
 use serde_json::{Value, json};
@@ -116,6 +116,13 @@ fn observer() -> Value {
     let can = [
         ("title", text("what it looks at")),
         ("needs", names("hardware and modules without which it sees nothing")),
+        (
+            "unwatched",
+            choice(
+                &UNWATCHED,
+                "what counts of what it alone watches while it is blind; `\"kept\"`",
+            ),
+        ),
     ];
     table(&[("flags", with(flags, "minItems", 1.into()))], &can, "who sees failures")
 }
@@ -174,6 +181,18 @@ fn failure() -> Value {
         ("mends", flag("whether the failure is over by it")),
         ("times", integer(&SETTINGS, "how often it is tried before the failure is told")),
     ];
+    let ask = [("times", integer(&ASKS, "how often, before severity and what is left decide"))];
+    let mask = [
+        ("on", choice(&MASKS, "when: with what is told, or on the operator's order; `\"told\"`")),
+        ("lasts_ms", integer(&TIMES, "how long, in ms; to the end of the mission")),
+    ];
+    let masked = with(names("flags of this failure"), "minItems", 1.into());
+    let tries = TRIES.map(|it| it.0);
+    let order = json!({
+        "type": "array", "minItems": 1, "uniqueItems": true,
+        "items": { "type": "string", "enum": tries },
+        "description": "in which order these are tried; `restart`, `set` with `times`, `ask`",
+    });
     let needs = [
         ("id", id("its short name")),
         ("mode", text("what fails, and how")),
@@ -200,6 +219,9 @@ fn failure() -> Value {
         ("unanswered", flag("whether the operator answers nothing while it lasts")),
         ("restart", restart),
         ("set", table(&[], &set, "a setting that answers it")),
+        ("ask", table(&ask, &[], "the operator is asked first")),
+        ("mask", table(&[("flags", masked)], &mask, "flags that are not diagnosed from then on")),
+        ("order", order),
         (
             "mean_hours",
             json!({

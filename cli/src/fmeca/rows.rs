@@ -73,6 +73,8 @@ fn row<'a>(analysis: &'a Analysis, it: &'a Mode, robot: Option<&'a Robot>) -> Fm
         undetectable_reason: it.silent.as_deref(),
         report,
         reaction: &it.reaction,
+        reaction_rounds: failure.and_then(|(robot, number, _)| robot.reacts_in(number)),
+        reaction_ms: failure.and_then(|(robot, number, _)| Some(robot.reacts_within(number)?.0)),
         mtbf_mh: it.mtbf_mh,
         rate_label: it.rate_label.name(),
         rate_source: &it.rate_source,

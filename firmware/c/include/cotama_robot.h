@@ -8,10 +8,10 @@
 #include <stdint.h>
 
 /* Tells these numbers from those of another robot or mission: for `cotama_level_start`. */
-#define COTAMA_ROBOT UINT64_C(0x9ddf164c2544b665)
+#define COTAMA_ROBOT UINT64_C(0x4e9090527813d7ea)
 
 /* The bytes of a `cotama_level`, at an address that is a multiple of 8. */
-#define COTAMA_LEVEL_BYTES 1184
+#define COTAMA_LEVEL_BYTES 1424
 /* The bytes of a stored one. */
 #define COTAMA_LEVEL_STORED_BYTES 174
 

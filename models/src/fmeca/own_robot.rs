@@ -4,8 +4,7 @@ use super::analysis::{Analysis, Flag, Mode};
 use super::diagnosis::Status;
 use super::label::Label;
 use super::set::Set;
-use crate::robots::{self, Configuration, Failure, Parts, Robot};
-use crate::severity::Severity;
+use crate::robots::{Failure, Parts, Robot};
 
 /// A mission of a robot takes minutes; this is a working day (assumed).
 const PERIOD_H: u32 = 8;
@@ -114,7 +113,7 @@ fn mode(robot: &Robot, it: &Failure) -> Mode {
         silent: it.unseen.clone(),
         detection_rank: None,
         event: it.autonomous.class().name().to_owned(),
-        reaction: reaction(robot, it),
+        reaction: it.reaction(robot),
         mtbf_mh: it.mean_mh.unwrap_or(1),
         alpha_permille: None,
         beta_permille: None,
@@ -130,32 +129,4 @@ fn observers(robot: &Robot, of: &Failure) -> String {
     all.dedup();
     let names = all.into_iter().filter_map(|it| robot.observers.get(it));
     names.map(|it| it.name.as_str()).collect::<Vec<_>>().join("; ")
-}
-
-/// The reaction in words, where the robot drives itself.
-fn reaction(robot: &Robot, it: &Failure) -> String {
-    let left = robot.available(it.loses);
-    let takes = |it: &Configuration| {
-        let of = robot.sub_objectives.get(it.sub_objective);
-        it.required & !left != 0 && of.is_some_and(|it| it.mode == robots::Mode::Autonomous)
-    };
-    let then = match it.autonomous {
-        Severity::Weak | Severity::Medium if !robot.configurations.iter().any(takes) => "record",
-        Severity::Weak | Severity::Medium => "another configuration",
-        Severity::Hard => "stop, ask the operator",
-        Severity::Fatal => "end the mission",
-    };
-    let often = |times: u8| match times {
-        1 => "once".to_owned(),
-        times => format!("{times} times"),
-    };
-    let restart = it.restarts.map(|it| {
-        let module = robot.modules.get(it.module).map_or("", |it| it.name.as_str());
-        format!("start {module} anew {}; then ", often(it.times))
-    });
-    let set = it.sets.as_ref().map(|it| match it.times {
-        Some(times) => format!("set {} {}; then ", it.text(robot), often(times)),
-        None => format!("set {}; ", it.text(robot)),
-    });
-    format!("{}{}{then}", restart.unwrap_or_default(), set.unwrap_or_default())
 }

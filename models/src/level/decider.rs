@@ -1,7 +1,9 @@
 //! From flags to requests: the decisional level as one component.
 
 use super::adapted::Adapted;
-use super::diagnosis::{Rows, diagnose};
+use super::asked::Asked;
+use super::diagnosis::Rows;
+use super::masked::{Hidden, Masked};
 use super::sets::bits;
 use super::supervisors::Level;
 use super::tables::{Act, Tables};
@@ -71,8 +73,11 @@ pub struct Decider<'t, P, const W: usize, const C: usize, const S: usize> {
     level: Level<'t, P, W, C, S>,
     untold: Untold,
     adapted: Adapted,
-    /// Flags that are raised.
+    asked: Asked,
+    masked: Masked,
+    /// Flags that are raised, and those that were masked when they were looked at last.
     up: u64,
+    hides: u64,
     findings: u16,
     /// The place of the robot, and since when it is there.
     place: Where,
@@ -86,10 +91,20 @@ impl<'t, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
 {
     /// Begins where these supervisors are.
     pub fn new(level: Level<'t, P, W, C, S>) -> Self {
-        let (untold, adapted) = (Untold::default(), Adapted::default());
-        let (place, none) = (level.place(), Millis(0));
-        let (up, findings) = (0, 0);
-        Self { level, untold, adapted, up, findings, place, since: none, stands_since: none }
+        let place = level.place();
+        Self {
+            level,
+            untold: Untold::default(),
+            adapted: Adapted::default(),
+            asked: Asked::default(),
+            masked: Masked::default(),
+            up: 0,
+            hides: 0,
+            findings: 0,
+            place,
+            since: Millis(0),
+            stands_since: Millis(0),
+        }
     }
 
     /// Begins anew where these supervisors are, in the same memory.
@@ -97,7 +112,9 @@ impl<'t, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
         self.level = level;
         self.untold = Untold::default();
         self.adapted = Adapted::default();
-        (self.up, self.findings) = (0, 0);
+        self.asked = Asked::default();
+        self.masked = Masked::default();
+        (self.up, self.hides, self.findings) = (0, 0, 0);
         (self.place, self.since, self.stands_since) = (self.level.place(), Millis(0), Millis(0));
     }
 
@@ -106,11 +123,13 @@ impl<'t, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
     pub fn perceive(&mut self, now: Millis, seen: Perceived) -> Rows {
         self.up = (self.up | seen.raised) & !seen.lowered;
         let tables = self.level.tables();
-        let found = if seen.raised == 0 {
+        let raised = seen.raised | self.unmasked(now) & self.up;
+        let hidden = self.hidden(now);
+        let found = if raised & !hidden.flags == 0 {
             Rows::default()
         } else {
             self.findings = self.findings.saturating_add(1);
-            diagnose(tables.failures, self.up, seen.raised & self.up)
+            hidden.diagnose(tables.failures, self.up, raised & self.up)
         };
         for row in found.worst_first(tables.failures) {
             self.report(row, Cause(self.findings));
@@ -197,10 +216,32 @@ impl<'t, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
         }
     }
 
+    /// Returns what masks hide at a time.
+    pub fn hidden(&self, now: Millis) -> Hidden {
+        self.masked.hidden(self.level.tables(), now)
+    }
+
+    /// Returns the flags whose masks are over since this was asked last, a bit each: they count as
+    /// new where they are up.
+    pub fn unmasked(&mut self, now: Millis) -> u64 {
+        let hides = self.hidden(now).flags;
+        core::mem::replace(&mut self.hides, hides) & !hides
+    }
+
+    /// Returns when the next mask is over; `None` where none ends.
+    pub fn unmasks_at(&self, now: Millis) -> Option<Millis> {
+        self.masked.ends_at(now)
+    }
+
     /// Notes which reports show themselves now, and which losses are there, a bit each; what has
-    /// been over for long enough waits to be told.
+    /// been over for long enough waits to be told, and what the operator was asked for and is done
+    /// with, but which is not over.
     pub fn see(&mut self, now: Millis, shown: u64, broken: u32) {
-        self.adapted.see(shown, broken, now);
+        let hidden = self.hidden(now);
+        for (report, cause) in self.asked.again(shown & !hidden.reports) {
+            self.untold.push(Told::Report(report), cause);
+        }
+        self.adapted.see(shown, broken | hidden.losses, now);
         let back = self.adapted.back(self.level.tables(), self.level.lost(), now);
         for loss in bits(u64::from(back)) {
             self.untold.push(Told::Back(loss), Cause(0));
@@ -209,11 +250,10 @@ impl<'t, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
 
     /// The supervisors take a round; returns the modules that are to be started anew, a bit each.
     pub fn round(&mut self, now: Millis, observer: &mut impl Observer<P, Cause>) -> u64 {
-        let mut acts = Acts::new(self.level.tables(), observer);
+        let mut acts = Acts::new(self.level.tables(), observer, &mut self.asked);
         self.level.round(now, &mut acts);
-        let (sets, restarts) = (acts.sets, acts.restarts);
-        self.set(now, sets);
-        restarts
+        let done = acts.done;
+        self.react(now, done)
     }
 
     /// Takes the oldest of what waits to be told.
@@ -235,21 +275,30 @@ impl<'t, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
         cause: Cause,
         observer: &mut impl Observer<P, Cause>,
     ) -> (bool, u64) {
-        let mut acts = Acts::new(self.level.tables(), observer);
+        let mut acts = Acts::new(self.level.tables(), observer, &mut self.asked);
         let accepted = self.level.tell(now, told, cause, &mut acts);
-        let (sets, restarts) = (acts.sets, acts.restarts);
-        self.set(now, sets);
-        if let (true, Told::Back(loss)) = (accepted, told) {
-            self.adapted.is_back(loss);
+        let done = acts.done;
+        let restarts = self.react(now, done);
+        match told {
+            Told::Back(loss) if accepted => self.adapted.is_back(loss),
+            Told::Chooses(_) if accepted => {
+                self.masked.order(self.level.tables(), self.level.lost(), now);
+            }
+            Told::Done(_) if accepted => self.asked.is_answered(),
+            _ => {}
         }
         (accepted, restarts)
     }
 
-    /// The settings of these reports are made.
-    fn set(&mut self, now: Millis, reports: u64) {
-        for report in bits(reports) {
+    /// Makes settings and masks; returns the modules that are to be started anew, a bit each.
+    fn react(&mut self, now: Millis, done: Reactions) -> u64 {
+        for report in bits(done.sets) {
             self.adapted.set(report, now);
         }
+        for mask in bits(done.masks) {
+            self.masked.tell(self.level.tables(), mask, now);
+        }
+        done.restarts
     }
 
     /// The supervisors, to be looked at or stored.
@@ -268,26 +317,38 @@ impl<'t, P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
     }
 }
 
+/// Reactions that transitions ask for: reports whose settings are made, modules that are started
+/// anew, masks; a bit each.
+#[derive(Clone, Copy, Default)]
+struct Reactions {
+    sets: u64,
+    restarts: u64,
+    masks: u64,
+}
+
 /// Notes the reactions that transitions ask for, and passes everything on.
 struct Acts<'t, 'o, O> {
     tables: &'t Tables<'t>,
     observer: &'o mut O,
-    sets: u64,
-    restarts: u64,
+    asked: &'o mut Asked,
+    done: Reactions,
 }
 
 impl<'t, 'o, O> Acts<'t, 'o, O> {
-    fn new(tables: &'t Tables<'t>, observer: &'o mut O) -> Self {
-        Self { tables, observer, sets: 0, restarts: 0 }
+    fn new(tables: &'t Tables<'t>, observer: &'o mut O, asked: &'o mut Asked) -> Self {
+        Self { tables, observer, asked, done: Reactions::default() }
     }
 }
 
 impl<P: Names, O: Observer<P, Cause>> Observer<P, Cause> for Acts<'_, '_, O> {
     fn on_fire(&mut self, firing: &Firing<'_, P, Cause>) {
-        match self.tables.act(firing.id) {
-            Some(Act::Restart(module)) => self.restarts |= 1 << (module % 64),
-            Some(Act::Set(report)) => self.sets |= 1 << (report % 64),
-            None => {}
+        for act in self.tables.acts(firing.id) {
+            match act {
+                Act::Restart(module) => self.done.restarts |= 1 << (module % 64),
+                Act::Set(report) => self.done.sets |= 1 << (report % 64),
+                Act::Ask(report) => self.asked.ask(usize::from(report), firing.carries),
+                Act::Hide(mask) => self.done.masks |= 1 << (mask % 64),
+            }
         }
         self.observer.on_fire(firing);
     }

@@ -30,6 +30,13 @@ impl Rows {
         }
     }
 
+    /// Takes a failure out.
+    pub(super) fn remove(&mut self, row: usize) {
+        if let Some(word) = self.0.get_mut(row / 64) {
+            *word &= !(1 << (row % 64));
+        }
+    }
+
     /// Iterates over the failures, the worst first, among equals by number.
     pub fn worst_first<'f>(
         &self,

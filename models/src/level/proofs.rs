@@ -28,6 +28,7 @@ fn tables<'t>(failures: &'t [Failure], losses: &'t [Loss], reports: &'t [Report]
         losses,
         reports,
         failures,
+        masks: &[],
         acting: &[],
     }
 }

@@ -16,6 +16,8 @@ pub const MAX_FLAGS: usize = 64;
 pub const MAX_LOSSES: usize = 10;
 /// The most reports that differ.
 pub const MAX_REPORTS: usize = 64;
+/// The most reports that mask flags.
+pub const MAX_MASKS: usize = 8;
 
 /// A robot with the objectives of its mission. All is numbered as in the robot's file; events,
 /// places and transitions are those of its system of supervisors.
@@ -53,8 +55,10 @@ pub struct Tables<'t> {
     pub reports: &'t [Report],
     /// The failures.
     pub failures: &'t [Failure],
+    /// The masks.
+    pub masks: &'t [Mask],
     /// The transitions that ask for a reaction outside of the supervisors, in the order of their
-    /// nets and numbers.
+    /// nets and numbers; one may ask for several.
     pub acting: &'t [Acting],
 }
 
@@ -139,6 +143,22 @@ pub struct Failure {
     pub persistence: Persistence,
 }
 
+/// A mask: flags that are not diagnosed while it holds, since what they show is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mask {
+    /// The report that makes it.
+    pub report: u8,
+    /// The loss that comes with it, which does not come back while the mask holds: nobody would
+    /// see it go again.
+    pub loss: Option<u8>,
+    /// The flags, a bit each.
+    pub flags: u64,
+    /// How long it holds; `None` to the end.
+    pub lasts: Option<Millis>,
+    /// Whether it is made when the operator, who was asked, chooses to go on.
+    pub on_order: bool,
+}
+
 /// A transition that asks for a reaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Acting {
@@ -155,6 +175,10 @@ pub enum Act {
     Restart(u8),
     /// The setting of a report, by its number, is made.
     Set(u8),
+    /// The operator is asked first for a report, by its number.
+    Ask(u8),
+    /// A mask, by its number, is made, or waits for the operator's order.
+    Hide(u8),
 }
 
 /// Returns an event of a net by its numbers.
@@ -178,11 +202,12 @@ impl Tables<'_> {
         self.sub_objectives.get(at.sub_objective()?).map(|it| it.mode)
     }
 
-    /// Returns the reaction that a transition asks for.
-    pub fn act(&self, transition: Of<TransitionId>) -> Option<Act> {
+    /// Returns the reactions that a transition asks for.
+    pub fn acts(&self, transition: Of<TransitionId>) -> impl Iterator<Item = Act> {
         let key = |it: Of<TransitionId>| (it.component, it.id.0);
-        let found = self.acting.binary_search_by_key(&key(transition), |it| key(it.transition));
-        found.ok().and_then(|at| self.acting.get(at)).map(|it| it.act)
+        let first = self.acting.partition_point(|it| key(it.transition) < key(transition));
+        let all = self.acting.get(first..).unwrap_or_default().iter();
+        all.take_while(move |it| it.transition == transition).map(|it| it.act)
     }
 
     /// Returns the losses of which a module does not work, a bit each.

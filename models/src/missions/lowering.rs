@@ -120,7 +120,7 @@ impl Under {
     /// Returns the hardware that a mission can plan with when these parts are known to be lost.
     pub fn units(&self, mission: &Definition, lost: Parts) -> Equipment {
         let robot = self.file.robot();
-        let available = robot.available(lost);
+        let available = robot.usable(lost);
         if !self.configurations.is_empty() {
             let runs = |it: &usize| {
                 robot.configurations.get(*it).is_some_and(|it| it.required & !available == 0)

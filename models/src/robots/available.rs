@@ -1,6 +1,6 @@
 //! Parts of a robot: what works after a loss, and names.
 
-use super::{Mode, Parts, Robot, SubObjective, Where, members};
+use super::{Failure, Mode, Observer, Parts, Robot, SubObjective, Where, members};
 
 impl Robot {
     /// Returns the modules that can be used when these parts are lost or faulty: none that is
@@ -22,6 +22,40 @@ impl Robot {
             }
             available = left;
         }
+    }
+
+    /// Returns the modules that may be used when these parts are lost: those that can be
+    /// ([`available`](Self::available)), but for what nobody watches any more where an observer
+    /// says that it counts as lost then. (Durand et al., TAROS 2010, Section III.B has a vector of
+    /// what is available; that it closes over what is watched is ours.)
+    ///
+    /// ```
+    /// use cotama_models::robots::{Parts, Robot, embedded};
+    /// let text = embedded("transport").unwrap().text;
+    /// let text = text.replace("[observer.timing]", "[observer.timing]\nunwatched = \"lost\"");
+    /// let robot = Robot::parse("transport.toml", &text);
+    /// assert!(robot.unwrap_err().to_string().contains("is never blind"), "it needs no module");
+    /// ```
+    pub fn usable(&self, lost: Parts) -> u64 {
+        let available = self.available(lost);
+        let unwatched = self.unwatched(available);
+        if unwatched == Parts::NONE { available } else { self.available(lost.union(unwatched)) }
+    }
+
+    /// The parts that count as lost since nobody watches them with these modules.
+    fn unwatched(&self, available: u64) -> Parts {
+        let blind = |it: &Observer| it.closes && it.needs.modules & !available != 0;
+        if !self.observers.iter().any(blind) {
+            return Parts::NONE;
+        }
+        let flags: Vec<bool> = self
+            .observers
+            .iter()
+            .flat_map(|it| std::iter::repeat_n(blind(it), it.flags.len()))
+            .collect();
+        let is_dark = |flag: &usize| flags.get(*flag).copied().unwrap_or(false);
+        let dark = |it: &&Failure| !it.flags.is_empty() && it.flags.iter().all(is_dark);
+        self.failures.iter().filter(dark).fold(Parts::NONE, |all, it| all.union(it.loses))
     }
 
     /// Returns the number of a failure by its short name.

@@ -65,3 +65,14 @@ pub fn decide(robot: &Robot, report: usize, situation: Situation) -> Decision {
         }
     }
 }
+
+/// The decision on a report that asks the operator first: he is asked where something runs and he
+/// can help, whatever the severity; else it is decided as any other ([`decide`]).
+pub fn ask_first(robot: &Robot, report: usize, situation: Situation) -> Decision {
+    let loss = robot.losses.reports.get(report).and_then(|it| it.loss);
+    let lost = situation.lost | loss.map_or(0, |it| 1 << it);
+    match situation.at {
+        Where::Runs { .. } if robot.can_ask(lost) => Decision::Ask,
+        _ => decide(robot, report, situation),
+    }
+}

@@ -20,7 +20,11 @@ pub struct Fired<'s> {
     pub restarts: Option<usize>,
     /// The report, by its number, whose setting is made.
     pub sets: Option<usize>,
-    /// Whether a report is told to the contextual supervisor.
+    /// The report, by its number, whose mask is made or waits for the operator's order.
+    pub masks: Option<usize>,
+    /// The report, by its number, for which the operator is asked first.
+    pub asks: Option<usize>,
+    /// Whether a report is told to the contextual supervisor, also to ask the operator first.
     pub tells: bool,
 }
 
@@ -37,12 +41,16 @@ pub fn fired<'s>(robot: &Robot, system: &System<'s>, id: Of<TransitionId>) -> Op
     let restarted = outputs.iter().find_map(|it| it.strip_prefix("restart_"));
     let named = |it: &Module| Some(word(&it.name).as_str()) == restarted;
     let restarts = restarted.and_then(|_| robot.modules.iter().position(named));
-    let set = outputs.iter().find_map(|it| it.strip_prefix("set_"));
     let reports = || robot.losses.reports.iter();
-    let sets = set.and_then(|set| reports().position(|it| word(&it.name) == set));
+    let report = |prefix: &str| {
+        let of = outputs.iter().find_map(|it| it.strip_prefix(prefix))?;
+        reports().position(|it| word(&it.name) == of)
+    };
+    let (sets, masks, asks) = (report("set_"), report("mask_"), report("ask_"));
     let tells = outputs.iter().any(|out| reports().any(|it| word(&it.name) == *out));
+    let tells = tells || asks.is_some();
     let (net, transition) = (component.name, transition.name);
-    Some(Fired { net, transition, place, outputs, restarts, sets, tells })
+    Some(Fired { net, transition, place, outputs, restarts, sets, masks, asks, tells })
 }
 
 /// Returns the name of an event as traces have it, for example `faults.fail_LID1`.

@@ -1,6 +1,6 @@
 //! Numbers and words that a robot's file may have: for the reader, and for the schema of the file.
 
-use super::Motion;
+use super::{Motion, Try};
 use std::ops::RangeInclusive;
 
 /// Value of `format` in files of robots.
@@ -21,6 +21,15 @@ pub const RANKS: RangeInclusive<i64> = 0..=255;
 pub const RESTARTS: RangeInclusive<i64> = 1..=9;
 /// How often a setting alone is the answer.
 pub const SETTINGS: RangeInclusive<i64> = 1..=9;
+/// How often the operator is asked first.
+pub const ASKS: RangeInclusive<i64> = 1..=9;
+/// When flags are masked: with what is told of the failure, or on the operator's order.
+pub const MASKS: [&str; 2] = ["told", "order"];
+/// What counts of the parts that an observer alone watches, while it sees nothing.
+pub const UNWATCHED: [&str; 2] = ["kept", "lost"];
+/// Reactions that are tried one after the other, by their keys.
+pub const TRIES: [(&str, Try); 3] =
+    [("restart", Try::Restart), ("set", Try::Set), ("ask", Try::Ask)];
 /// Values of parameters of modules.
 pub const VALUES: RangeInclusive<i64> = 0..=1_000_000_000;
 /// How long a setting outlasts its failure, in ms.

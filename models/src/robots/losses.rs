@@ -1,7 +1,9 @@
 //! Reports of failures, and the losses that make a difference.
 
 use super::supervisors::word;
-use super::{Failure, MAX_LOSSES, MAX_REPORTS, Mode, Parts, Restarts, Robot, Setting, members};
+use super::{
+    Failure, MAX_LOSSES, MAX_REPORTS, Mask, Mode, Parts, Restarts, Robot, Setting, Try, members,
+};
 use crate::severity::Severity;
 
 /// A loss that stays: the parts that are gone with a failure, as far as some configuration or the
@@ -34,6 +36,12 @@ pub struct Report {
     pub restarts: Option<Restarts>,
     /// The setting that answers it.
     pub sets: Option<Setting>,
+    /// How often the operator is asked first.
+    pub asks: Option<u8>,
+    /// The flags that are masked once it is told.
+    pub masks: Option<Mask>,
+    /// The reactions that are tried before it is told, in their order.
+    pub tries: Vec<Try>,
 }
 
 /// All reports and losses of a robot, and what is left after each set of losses.
@@ -67,8 +75,8 @@ pub(super) struct Left {
 
 impl Report {
     /// Whether it is told as soon as it is known, and nothing is tried before.
-    pub fn is_told_at_once(&self) -> bool {
-        self.restarts.is_none() && self.sets.as_ref().is_none_or(|it| it.times.is_none())
+    pub const fn is_told_at_once(&self) -> bool {
+        self.tries.is_empty()
     }
 
     /// How severe it is in a mode.
@@ -109,7 +117,10 @@ impl Losses {
             let same = |report: &&mut Report| {
                 (report.loss, report.autonomous, report.operator, &report.sets)
                     == (loss, it.autonomous, it.operator, &it.sets)
-                    && (report.restarts, it.restarts) == (None, None)
+                    && [report.restarts, it.restarts] == [None; 2]
+                    && [report.asks, it.asks] == [None; 2]
+                    && report.masks.is_none()
+                    && it.masks.is_none()
             };
             match reports.iter_mut().find(same) {
                 Some(report) => report.failures.push(at),
@@ -121,6 +132,9 @@ impl Losses {
                     operator: it.operator,
                     restarts: it.restarts,
                     sets: it.sets.clone(),
+                    asks: it.asks,
+                    masks: it.masks.clone(),
+                    tries: it.tries.clone(),
                 }),
             }
             if reports.len() > MAX_REPORTS {
@@ -162,10 +176,13 @@ fn gone(robot: &Robot, loses: Parts) -> u64 {
     robot.available(Parts::NONE) & !robot.available(loses)
 }
 
-/// Returns the modules on which some configuration or the link to the operator depends.
+/// Returns the modules on which some configuration or the link to the operator depends, also since
+/// an observer needs them without whom what he watches counts as lost.
 fn relevant(robot: &Robot) -> u64 {
     let required = robot.configurations.iter().fold(0, |all, it| all | it.required);
-    let mut relevant = required | robot.operator.unwrap_or(0);
+    let watching = robot.observers.iter().filter(|it| it.closes);
+    let watching = watching.fold(0, |all, it| all | it.needs.modules);
+    let mut relevant = required | robot.operator.unwrap_or(0) | watching;
     loop {
         let needed = members(relevant).filter_map(|it| robot.modules.get(it));
         let all = needed.fold(relevant, |all, it| all | it.needs.modules | it.one_of);
@@ -189,7 +206,7 @@ fn name(robot: &Robot, failure: &Failure, losses: &[Loss]) -> String {
 fn left(robot: &Robot, losses: &[Loss], lost: u32) -> Left {
     let lost = losses.iter().enumerate().filter(|it| lost >> it.0 & 1 == 1);
     let modules = lost.fold(0, |all, it| all | it.1.modules);
-    let available = robot.available(Parts { hardware: 0, modules });
+    let available = robot.usable(Parts { hardware: 0, modules });
     let runs = robot.configurations.iter().enumerate();
     let runs = runs.filter(|it| it.1.required & !available == 0);
     Left {

@@ -63,10 +63,13 @@ mod fired;
 mod in_time;
 pub mod known;
 mod losses;
+mod masking;
 mod printed;
 mod reached;
+mod reaction;
 mod reader;
 pub mod requirements;
+mod response;
 mod script;
 mod settings;
 mod sound;
@@ -76,15 +79,18 @@ mod tables;
 mod tests;
 
 pub use crate::level::{
-    Global, MAX_CONFIGURATIONS, MAX_FAILURES, MAX_FLAGS, MAX_LOSSES, MAX_REPORTS, Mode, Told, Where,
+    Global, MAX_CONFIGURATIONS, MAX_FAILURES, MAX_FLAGS, MAX_LOSSES, MAX_MASKS, MAX_REPORTS, Mode,
+    Told, Where,
 };
-pub use decision::{Decision, Situation, decide};
+pub use decision::{Decision, Situation, ask_first, decide};
 pub use embedded::{EMBEDDED, EmbeddedRobot, embedded};
 pub use file::RobotFile;
 pub use fired::{Fired, fired, name_of};
 pub use known::FORMAT;
 pub use losses::{Loss, Losses, Report};
 pub use printed::to_rust;
+pub use reaction::{Mask, Try};
+pub use response::{ADAPTS_IN, ASKS_IN, ENDS_IN, KNOWN_IN};
 pub use script::{Answer, Incident, IncidentKind, Moment};
 pub use settings::{Parameter, Setting, Value};
 pub use tables::OwnedTables;
@@ -263,6 +269,8 @@ pub struct Observer {
     pub needs: Parts,
     /// The flags that it raises.
     pub flags: Vec<String>,
+    /// Whether what it alone watches counts as lost while it sees nothing.
+    pub closes: bool,
 }
 
 /// A failure: a row of the FMECA.
@@ -310,6 +318,12 @@ pub struct Failure {
     pub restarts: Option<Restarts>,
     /// The setting that answers it.
     pub sets: Option<Setting>,
+    /// How often the operator is asked before severity and availability decide.
+    pub asks: Option<u8>,
+    /// The flags that are masked once it is told.
+    pub masks: Option<Mask>,
+    /// The reactions that are tried before it is decided, in their order.
+    pub tries: Vec<Try>,
     /// The mean time between two failures, in thousandths of an hour; `None` where nobody knows.
     pub mean_mh: Option<u64>,
     /// Source of what is said of it; may be empty.

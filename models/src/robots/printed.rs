@@ -23,14 +23,14 @@ pub fn to_rust(robot: &Robot, steps: &[Step]) -> String {
     text += "
 /// Numbers and facts that the decisional level needs at work.
 pub mod tables {
-    #![allow(unused_imports)] // a robot may have no setting, no restart, no operator
+    #![allow(unused_imports)] // a robot may have no setting, no mask, no operator
     use cotama_core::net::{EventId, PlaceId, TransitionId};
     use cotama_core::system::Of;
     use cotama_core::units::{MillimetresPerSecond, Millis};
-    use cotama_models::level::Act::{Restart, Set};
+    use cotama_models::level::Act::{Ask, Hide, Restart, Set};
     use cotama_models::level::Mode::{Autonomous, Operator};
     use cotama_models::level::{
-        Acting, Configuration, Failure, Loss, Report, Setting, Step, SubObjective, Tables,
+        Acting, Configuration, Failure, Loss, Mask, Report, Setting, Step, SubObjective, Tables,
     };
     use cotama_models::severity::Persistence::{Intermittent, Permanent, Transient};
     use cotama_models::severity::Severity::{Fatal, Hard, Medium, Weak};
@@ -57,6 +57,7 @@ pub mod tables {
     rows(&mut text, "losses", tables.losses);
     rows(&mut text, "reports", tables.reports);
     rows(&mut text, "failures", tables.failures);
+    rows(&mut text, "masks", tables.masks);
     rows(&mut text, "acting", tables.acting);
     text += "    };\n}\n\n/// Names, by the numbers of the tables.\npub mod names {\n";
     let losses = &robot.losses;

@@ -1,6 +1,6 @@
 //! Configurations that a robot comes to run, whatever fails and whatever the operator does.
 
-use super::{Decision, Mode, Robot, Situation, Where, decide, members};
+use super::{Decision, Mode, Robot, Situation, Where, ask_first, decide, members};
 use std::collections::BTreeSet;
 
 /// Returns the configurations that run in some situation, a bit each: passes through all places of
@@ -14,7 +14,12 @@ pub(super) fn configurations(robot: &Robot) -> u32 {
         if let Where::Runs { configuration, .. } = it.at {
             reached |= 1 << configuration;
         }
-        let failed = (0..robot.losses.reports.len()).filter_map(|report| after(robot, report, it));
+        let reports = robot.losses.reports.iter().enumerate();
+        let failed = reports.flat_map(|(report, of)| {
+            let asks = of.asks.map(|_| ask_first(robot, report, it));
+            let decided = [Some(decide(robot, report, it)), asks];
+            decided.into_iter().flatten().filter_map(move |to| after(robot, report, it, to))
+        });
         let next = failed.chain(moves(robot, it)).filter(|it| found.insert(key(*it)));
         waiting.extend(next.collect::<Vec<_>>());
     }
@@ -31,11 +36,11 @@ fn key(it: Situation) -> (usize, u32) {
     (at, it.lost)
 }
 
-/// The situation after a report; `None` where the mission ends.
-fn after(robot: &Robot, report: usize, it: Situation) -> Option<Situation> {
+/// The situation after the decision on a report; `None` where the mission ends.
+fn after(robot: &Robot, report: usize, it: Situation, decided: Decision) -> Option<Situation> {
     let loss = robot.losses.reports.get(report).and_then(|it| it.loss);
     let lost = it.lost | loss.map_or(0, |it| 1 << it);
-    let at = match (decide(robot, report, it), it.at) {
+    let at = match (decided, it.at) {
         (Decision::Stop, _) => return None,
         (Decision::Ask, _) => Where::Waits,
         (Decision::Adapt, Where::Runs { sub_objective, configuration }) => {

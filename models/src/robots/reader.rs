@@ -2,11 +2,13 @@
 
 mod body;
 mod failures;
+mod reactions;
 mod settings;
 
 use super::in_time;
-use super::known::{COSTS, FORMAT, MODES, POWERS, RANKS, SPEEDS, TIMES, UNITS};
+use super::known::{COSTS, FORMAT, MODES, POWERS, RANKS, SPEEDS, TIMES, UNITS, UNWATCHED};
 use super::losses::{Losses, TooMany};
+use super::masking;
 use super::sound::Places;
 use super::supervisors::{self, ReadNet};
 use super::{
@@ -165,6 +167,7 @@ fn robot(mut fields: Fields<'_>, own: &mut ReadNet<'_>) -> Option<Robot> {
             return None;
         }
     };
+    masking::makes_sense(&robot, &names.at, sink);
     if !sound::makes_sense(&robot, &names.at, sink) || !in_time::is(&robot, &names.at, sink) {
         return None;
     }
@@ -318,6 +321,10 @@ fn observer((name, fields): Named<'_>, names: &mut Names) -> Option<Observer> {
     let mut fields = fields?;
     let title = words(&mut fields, "title");
     let needs = parts(&mut fields, "needs", names);
+    let unwatched = fields.optional_text("unwatched").ok().map(|it| {
+        let known = UNWATCHED.into_iter();
+        it.map_or(Some(0), |it| fields.index_of(&it, "word for what is unwatched", known))
+    });
     let flags = fields.texts("flags");
     for it in flags.iter().flatten() {
         if names.flags.contains(&it.value) || it.value.is_empty() {
@@ -334,9 +341,17 @@ fn observer((name, fields): Named<'_>, names: &mut Names) -> Option<Observer> {
         let it = Diagnostic::new(fields.span_of("flags"), message, "too many");
         fields.report(it.help("let one flag show what is answered alike"));
     }
+    let closes = unwatched.flatten().map(|at| UNWATCHED.get(at) == Some(&"lost"));
+    if closes == Some(true) && needs.is_some_and(|it| it.modules == 0 || it.hardware != 0) {
+        let message = format!("{} is never blind by the loss of a module", quoted(&name.value));
+        let it = Diagnostic::new(fields.span_of("unwatched"), message, "needs no module, or more");
+        fields.report(
+            it.help("say in `needs` without which modules it sees nothing, and no hardware"),
+        );
+    }
     fields.finish();
     let flags = flags?.into_iter().map(|it| it.value).collect();
-    Some(Observer { name: name.value, title, needs: needs?, flags })
+    Some(Observer { name: name.value, title, needs: needs?, flags, closes: closes? })
 }
 
 fn operator(mut fields: Fields<'_>, names: &Names) -> Option<u64> {

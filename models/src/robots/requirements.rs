@@ -3,8 +3,8 @@
 //! Numbers follow the supervisors: GS global, LS local, AS adapters, CS contextual. Texts speak of
 //! [`system`](super::supervisors::system) as one net that acts in rounds.
 
-use super::supervisors::{Step, adapter, cannot, cannot_run, place_of, word};
-use super::{Mode, Report, Robot, SubObjective};
+use super::supervisors::{Step, adapter, asks_now, cannot, cannot_run, lost, place_of, word};
+use super::{Failure, Mode, Parts, Report, Robot, SubObjective};
 use crate::severity::Severity;
 
 /// Something that the supervisors of a robot are required to do.
@@ -110,6 +110,8 @@ pub fn of_mission(robot: &Robot, steps: &[Step]) -> Vec<Requirement> {
     }
     severe(robot, &mut ask);
     reasons(robot, &mut ask);
+    asked_first(robot, &mut ask);
+    watched(robot, &mut ask);
     for it in robot.sub_objectives.iter().filter(|it| it.configurations.len() > 1) {
         adapters(robot, it, &mut ask);
     }
@@ -259,7 +261,10 @@ fn reasons(robot: &Robot, ask: &mut Ask<'_>) {
         vec![reason],
         format!("AG (gs.global_event.waiting | gs.no_way.waiting -> reason >= 1{or_helpless})"),
     );
-    let hard: Vec<_> = told(Severity::Hard).collect();
+    let asks = robot.losses.reports.iter().filter(|it| it.asks.is_some());
+    let asks = asks.map(|it| format!("gom.flag_{}.waiting", word(&it.name)));
+    let asks_first = asks.clone().next().is_some();
+    let hard: Vec<_> = told(Severity::Hard).chain(asks).collect();
     let hard = or_never(&hard);
     let hard = at_end("hard", &hard, &format!("!({hard})"), 1);
     let stuck = robot.configurations.iter().enumerate().filter_map(|(number, _)| {
@@ -270,11 +275,73 @@ fn reasons(robot: &Robot, ask: &mut Ask<'_>) {
     let called = Watch { at_end: false, ..at_end("called", &called, &format!("!({called})"), 1) };
     ask(
         "CS4".to_owned(),
-        "The operator is called only by something hard, or where what runs cannot go on."
-            .to_owned(),
+        if asks_first {
+            "The operator is called only by something hard, by a row that asks him first, or where \
+             what runs cannot go on."
+        } else {
+            "The operator is called only by something hard, or where what runs cannot go on."
+        }
+        .to_owned(),
         vec![hard, called],
         "AG called = 0".to_owned(),
     );
+}
+
+/// Adds, for each report that asks the operator first: it does, where he can help.
+fn asked_first(robot: &Robot, ask: &mut Ask<'_>) {
+    let own = places(robot, None).join(" | ");
+    let helps = cannot(robot, |lost| robot.can_ask(lost));
+    let helps = helps.map_or_else(String::new, |it| format!(" & !({it})"));
+    for (number, it) in robot.losses.reports.iter().enumerate().filter(|it| it.1.asks.is_some()) {
+        let told = format!("gom.flag_{}.waiting & {}", word(&it.name), asks_now(robot, number));
+        let asking = at_end("asking", &told, &format!("!({told})"), 1);
+        // The operator may answer in the round in which he is asked.
+        let answer = at_end(
+            "answer",
+            &format!("asking & ({own}){helps}"),
+            "ls.Waits | ls.Idle | ls.End | gs.Security | gs.Safe",
+            2,
+        );
+        ask(
+            format!("CS5.{}", word(&it.name)),
+            format!(
+                "`{}` stops what runs and asks the operator first, where he can help.",
+                it.name
+            ),
+            vec![asking, Watch { at_end: false, ..answer }],
+            "AG answer <= 1".to_owned(),
+        );
+    }
+}
+
+/// Adds, for each observer without whom what he alone watches counts as lost: none of it is used
+/// while he is known to see nothing.
+fn watched(robot: &Robot, ask: &mut Ask<'_>) {
+    let names: Vec<_> = robot.flags().map(|it| it.0).collect();
+    for (number, it) in robot.observers.iter().enumerate().filter(|it| it.1.closes) {
+        let is_his = |flag: &usize| names.get(*flag) == Some(&number);
+        let his = |it: &&Failure| !it.flags.is_empty() && it.flags.iter().all(is_his);
+        let watched =
+            robot.failures.iter().filter(his).fold(0, |all, it| {
+                all | (robot.available(Parts::NONE) & !robot.available(it.loses))
+            });
+        let users =
+            robot.configurations.iter().enumerate().filter(|it| it.1.required & watched != 0);
+        let users: Vec<_> = users.map(|it| place_of(robot, it.0)).collect();
+        let blinds = |loss: &usize| {
+            robot.losses.losses.get(*loss).is_some_and(|of| of.modules & it.needs.modules != 0)
+        };
+        let blind = (0..robot.losses.losses.len()).filter(blinds);
+        let blind: Vec<_> = blind.map(|it| format!("gom.{}", lost(robot, it))).collect();
+        let begins = format!("({}) & ({})", or_never(&users), or_never(&blind));
+        let watch = at_end("unwatched", &begins, &format!("!({begins})"), 3);
+        ask(
+            format!("OB1.{}", word(&it.name)),
+            format!("While `{}` sees nothing, nothing runs that it alone watches.", it.name),
+            vec![watch],
+            "AG unwatched <= 2".to_owned(),
+        );
+    }
 }
 
 /// Any of these conditions; of none, one that never holds.

@@ -1,7 +1,7 @@
 //! Checks of a robot that was read: a part that makes no sense is an error.
 
 use super::supervisors::word;
-use super::{Mode, Parts, Robot, members, reached};
+use super::{Failure, Mode, Parts, Robot, members, reached};
 use crate::missions::Diagnostic;
 use crate::missions::reader::fields::Sink;
 use crate::names::quoted;
@@ -16,6 +16,9 @@ pub(super) struct Places {
     pub(super) configurations: Vec<Range<usize>>,
     pub(super) flags: Vec<Range<usize>>,
     pub(super) failures: Vec<Range<usize>>,
+    /// The masks, and where the operator is asked first; of a failure without, that of its name.
+    pub(super) masks: Vec<Range<usize>>,
+    pub(super) asks: Vec<Range<usize>>,
 }
 
 /// Names of nets and places that every robot has.
@@ -185,7 +188,10 @@ fn names(robot: &Robot, at: &Places, sink: &Sink) {
     let own = ["refusal", "global_event", "local_event"].map(str::to_owned);
     let ids = robot.failures.iter().filter(|it| it.sets.is_some());
     let sets = ids.map(|it| format!("set_{}", word(&it.id)));
-    let made = restarts.chain(sets).map(|it| it.to_lowercase());
+    let of = |it: &&Failure| it.asks.is_some() || it.masks.is_some();
+    let more = robot.failures.iter().filter(of);
+    let more = more.flat_map(|it| ["ask", "mask"].map(|of| format!("{of}_{}", word(&it.id))));
+    let made = restarts.chain(sets).chain(more).map(|it| it.to_lowercase());
     let mut told: BTreeSet<_> = made.chain(own).collect();
     // A short name that is there twice is told apart from one that only looks so.
     let mut ids = BTreeSet::new();

@@ -3,7 +3,9 @@
 
 use super::supervisors::{OwnedSystem, Step, begins, lost, place_of, word};
 use super::{Failure, Robot};
-use crate::level::{self, Act, Acting, Configuration, Loss, Report, Setting, SubObjective, Tables};
+use crate::level::{
+    self, Act, Acting, Configuration, Loss, Mask, Report, Setting, SubObjective, Tables,
+};
 use cotama_core::net::{EventId, PlaceId, TransitionId};
 use cotama_core::system::{Of, System};
 
@@ -41,6 +43,7 @@ pub struct OwnedTables {
     losses: Vec<Loss>,
     reports: Vec<Report>,
     failures: Vec<level::Failure>,
+    masks: Vec<Mask>,
     acting: Vec<Acting>,
 }
 
@@ -72,6 +75,7 @@ impl OwnedTables {
             losses: &[],
             reports: &[],
             failures: &[],
+            masks: &[],
             acting: &[],
         };
         let drive = steps.is_empty().then(|| level::Step { place: gs("Drive"), over: None });
@@ -87,6 +91,7 @@ impl OwnedTables {
             losses: parts.losses(robot),
             reports: parts.reports(robot),
             failures: robot.failures.iter().enumerate().map(|it| failure(robot, it)).collect(),
+            masks: masking(robot).map(|(report, it)| mask(robot, report, it)).collect(),
             acting,
         }
     }
@@ -100,6 +105,7 @@ impl OwnedTables {
             losses: &self.losses,
             reports: &self.reports,
             failures: &self.failures,
+            masks: &self.masks,
             acting: &self.acting,
             ..self.fixed
         }
@@ -192,18 +198,33 @@ impl Parts<'_> {
         let all = transitions.filter_map(|(_, id)| {
             let transition = Of { component, id: TransitionId(id) };
             let fired = super::fired(robot, self.0, transition)?;
-            let act = match (fired.restarts, fired.sets) {
-                (Some(module), _) => Act::Restart(module as u8),
-                (None, Some(report)) => Act::Set(report as u8),
-                (None, None) => return None,
-            };
-            Some(Acting { transition, act })
+            let mask = |report| masking(robot).position(|it| it.0 == report);
+            let acts = [
+                fired.restarts.map(|module| Act::Restart(module as u8)),
+                fired.sets.map(|report| Act::Set(report as u8)),
+                fired.asks.map(|report| Act::Ask(report as u8)),
+                fired.masks.and_then(mask).map(|mask| Act::Hide(mask as u8)),
+            ];
+            Some(acts.into_iter().flatten().map(move |act| Acting { transition, act }))
         });
-        all.collect()
+        all.flatten().collect()
     }
 }
 
-fn failure(robot: &Robot, (number, it): (usize, &Failure)) -> level::Failure {
+/// The reports that mask flags, by number.
+fn masking(robot: &Robot) -> impl Iterator<Item = (usize, &super::Mask)> {
+    let all = robot.losses.reports.iter().enumerate();
+    all.filter_map(|it| Some((it.0, it.1.masks.as_ref()?)))
+}
+
+fn mask(robot: &Robot, report: usize, it: &super::Mask) -> Mask {
+    let flags = it.flags.iter().fold(0, |set, flag| set | 1 << flag);
+    let loss = robot.losses.reports.get(report).and_then(|it| it.loss).map(|it| it as u8);
+    Mask { report: report as u8, loss, flags, lasts: it.lasts, on_order: it.on_order }
+}
+
+/// A failure as the level diagnoses it.
+pub(super) fn failure(robot: &Robot, (number, it): (usize, &Failure)) -> level::Failure {
     let reports = &robot.losses.reports;
     let report = reports.iter().position(|it| it.failures.contains(&number));
     level::Failure {

@@ -18,7 +18,7 @@ use cotama_core::net::TransitionId;
 use cotama_core::player::{Firing, Names, Observer};
 use cotama_core::system::Of;
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::level::{Act, Cause};
+use cotama_models::level::{Act, Cause, Hidden};
 use cotama_models::robots::{Global, Mode, Robot, Told, Where, members};
 use cotama_models::team::scenario::{self, Row, Stage};
 use moving::{Moving, Orders};
@@ -264,7 +264,7 @@ impl Driver {
         let seen = std::mem::take(&mut self.moving.seen);
         let first = self.moving.failures.all.get(*seen.first()?)?.number;
         self.calm = false;
-        let (_, taken) = self.moving.failures.diagnosed(&KIND.tables, &seen);
+        let (_, taken) = self.moving.failures.diagnosed(&KIND.tables, &seen, Hidden::default());
         let reports = taken.into_iter().filter_map(|it| KIND.tables.failures.get(it));
         let reports = reports.map(|it| usize::from(it.report));
         for told in reports.map(Told::Report) {
@@ -303,12 +303,15 @@ impl Driver {
         let kind: &Kind = &KIND;
         for id in seen.fired.iter().filter(|it| Some(usize::from(it.component)) == kind.observation)
         {
-            match kind.tables.act(*id) {
-                Some(Act::Restart(module)) => {
-                    self.moving.failures.restart(kind.robot, usize::from(module));
+            for act in kind.tables.acts(*id) {
+                match act {
+                    Act::Restart(module) => {
+                        self.moving.failures.restart(kind.robot, usize::from(module));
+                    }
+                    Act::Set(report) => self.set(now, usize::from(report)),
+                    // Nobody answers in a team, and its robot masks nothing.
+                    Act::Ask(_) | Act::Hide(_) => {}
                 }
-                Some(Act::Set(report)) => self.set(now, usize::from(report)),
-                None => {}
             }
         }
     }

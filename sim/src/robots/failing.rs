@@ -2,7 +2,7 @@
 
 use crate::body::{Drive, FIRMWARE_WATCHDOG, Motion};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
-use cotama_models::level::{Tables, diagnose};
+use cotama_models::level::{Hidden, Tables};
 use cotama_models::robots::{self, Mode, Parts, Robot, Setting, Where, members};
 use cotama_models::severity::Persistence;
 
@@ -99,12 +99,21 @@ impl Failures {
         }
     }
 
+    /// Lets failures under way show themselves again whose flags were masked, a bit each.
+    pub(crate) fn unmask(&mut self, tables: &Tables<'_>, flags: u64) {
+        let shows = |row: usize| tables.failures.get(row).is_some_and(|it| it.flags & flags != 0);
+        if flags != 0 {
+            self.show_again(|row| !shows(row));
+        }
+    }
+
     /// Returns the flags that failures raise which are seen from now on, and the rows that they are
-    /// taken for.
+    /// taken for, but for what masks hide.
     pub(crate) fn diagnosed(
         &self,
         tables: &Tables<'_>,
         seen: &[usize],
+        hidden: Hidden,
     ) -> (Vec<usize>, Vec<usize>) {
         let rows = seen.iter().filter_map(|it| self.all.get(*it));
         let rows = rows.filter_map(|it| tables.failures.get(it.number));
@@ -112,7 +121,7 @@ impl Failures {
         let open = self.all.iter().filter(|it| it.found && !it.over);
         let open = open.filter_map(|it| tables.failures.get(it.number));
         let up = open.fold(0, |set, it| set | it.flags);
-        let taken = diagnose(tables.failures, up, raised);
+        let taken = hidden.diagnose(tables.failures, up, raised);
         (members(raised).collect(), taken.worst_first(tables.failures).collect())
     }
 

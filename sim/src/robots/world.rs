@@ -381,10 +381,13 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
 
     /// Observers raise flags, and what they show is reported.
     fn observe<R: Recorder>(&mut self, recording: &mut Recording<'_, R>) {
+        let unmasked = self.decider.unmasked(self.now);
+        self.failures.unmask(self.tables(), unmasked);
         let seen = self.failures.look(self.robot, self.place);
         let Some(first) = seen.first().copied() else { return };
         self.calm = false;
-        let (raised, taken) = self.failures.diagnosed(self.tables(), &seen);
+        let (raised, taken) =
+            self.failures.diagnosed(self.tables(), &seen, self.decider.hidden(self.now));
         for it in &seen {
             if let Some(conduct) = self.run.conduct.get_mut(*it) {
                 conduct.detected = Some(self.now);

@@ -26,6 +26,9 @@ pub struct Fired {
     /// The setting that is made, in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sets: Option<String>,
+    /// The mask that is made now, or on the operator's order, in words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub masks: Option<String>,
 }
 
 impl Fired {

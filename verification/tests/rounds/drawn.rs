@@ -19,6 +19,9 @@ struct Failure {
     modules: Vec<usize>,
     severity: [usize; 2],
     restarts: bool,
+    asks: bool,
+    /// Position in [`MASKS`]; none beyond.
+    masks: usize,
     latency_ms: usize,
     /// Of [`MOTIONS`]; none beyond.
     motion: usize,
@@ -49,6 +52,8 @@ const SETTINGS: [&str; 3] = [
     "set = { speed_permille = 400, times = 1 }",
     "set = { speed_permille = 400, times = 2, mends = true, holds_ms = 0 }",
 ];
+const MASKS: [&str; 3] = ["", ", lasts_ms = 2000", ", on = \"order\", lasts_ms = 5000"];
+const ON_ORDER: usize = 2;
 const SEVERITIES: [&str; 4] = ["weak", "medium", "hard", "fatal"];
 
 impl Drawn {
@@ -107,11 +112,19 @@ impl Drawn {
             let severity = if motion == RUNS_AWAY { [3, 3] } else { severity };
             let ends = if motion == 0 { ENDS.len() } else { below(6) };
             let sets = if severity == [3, 3] { SETTINGS.len() } else { below(12) };
+            let asks = operator.is_some() && severity != [2, 2] && below(8) == 0;
+            let masks = below(12);
+            let has_none = severity == [3, 3] && !(asks && masks == ON_ORDER)
+                || masks == ON_ORDER && !(asks || operator.is_some() && severity.contains(&2))
+                || failures.iter().filter(|it: &&Failure| it.masks < MASKS.len()).count() == 8;
+            let masks = if has_none { MASKS.len() } else { masks };
             failures.push(Failure {
                 hardware: if one || below(3) > 0 { vec![] } else { vec![below(hardware as u32)] },
                 modules: if one { vec![at] } else { vec![] },
                 severity,
                 restarts: below(6) == 0,
+                asks,
+                masks,
                 latency_ms: 100 + 100 * below(30),
                 motion,
                 ends,
@@ -170,6 +183,12 @@ impl Drawn {
             }
             for it in [ENDS.get(it.ends), SETTINGS.get(it.sets)].into_iter().flatten() {
                 let _ = writeln!(text, "{it}");
+            }
+            if it.asks {
+                let _ = writeln!(text, "ask = {{ times = 1 }}");
+            }
+            if let Some(it) = MASKS.get(it.masks) {
+                let _ = writeln!(text, "mask = {{ flags = [\"f{at}\"]{it} }}");
             }
             if it.restarts {
                 let module = self.restarted(at);
@@ -251,8 +270,14 @@ impl Drawn {
         if self.failures.iter().enumerate().any(in_vain) {
             faults.insert("starts");
         }
-        if self.operator.is_none() && self.failures.iter().any(|it| it.severity[0] == 2) {
+        let decides = self.configurations.iter().any(|it| SUB_OBJECTIVES[it.0].1 == "operator");
+        let asks = self.failures.iter().any(|it| it.asks);
+        let is_hard = self.failures.iter().any(|it| it.severity[0] == 2);
+        if asks && !decides || is_hard && self.operator.is_none() {
             faults.insert("nobody to ask");
+        }
+        if !decides && self.failures.iter().any(|it| it.masks == ON_ORDER) {
+            faults.insert("nobody orders");
         }
         faults
     }

@@ -6,9 +6,10 @@ use crate::delivery::explored;
 use crate::drawn::Drawn;
 use crate::mutations::mutants;
 use cotama_models::missions::{Mission, embedded};
-use cotama_models::robots::Robot;
-use cotama_models::robots::requirements::{self, Requirement};
+use cotama_models::robots::requirements::{self, Requirement, Watch};
 use cotama_models::robots::supervisors::{OwnedSystem, of_mission, system, to_rust};
+use cotama_models::robots::{Mode, Robot};
+use cotama_models::severity::Severity;
 use cotama_verification::check::{Checker, Model, Options, Verdict};
 use cotama_verification::explicit::{Graph, Limits};
 use cotama_verification::flat::{Looks, Rounds, Size, rounds};
@@ -129,6 +130,81 @@ fn each_mistake_in_the_supervisors_breaks_the_requirement_that_forbids_it() {
     }
 }
 
+/// The most rounds in which the reaction to a report that is told at once is not done yet, as the
+/// checker finds it: up to four.
+fn most_rounds(robot: &Robot, rounds: &Rounds, report: usize) -> u64 {
+    let of = &robot.losses.reports[report];
+    let told = format!("gom.flag_{}.waiting", of.name);
+    let own = robot.sub_objectives.iter().filter(|it| it.mode == Mode::Autonomous);
+    let own: Vec<_> = own.map(|it| format!("ls.{}", it.name)).collect();
+    let done = match (of.autonomous, of.loss) {
+        (Severity::Fatal, _) => "gs.Security | gs.Safe".to_owned(),
+        (Severity::Hard, _) => format!("!({})", own.join(" | ")),
+        (_, None) => format!("!({told})"),
+        (_, Some(loss)) => {
+            // Nothing runs without what it needs.
+            let all = requirements::of(robot).into_iter().filter(|it| it.id.starts_with("AS4"));
+            let without: Vec<_> = all.map(|it| it.watches[0].begins.clone()).collect();
+            let lost = &robot.losses.losses[loss].name;
+            format!("gom.lost_{lost} & !({})", without.join(" | "))
+        }
+    };
+    let begins = format!("{told} & ({})", own.join(" | "));
+    let within = |most: &u64| {
+        let (begins, ends) = (begins.clone(), done.clone());
+        let watch = Watch { name: "late".into(), at_end: true, begins, ends, most: 5 };
+        let (id, text) = (of.name.clone(), format!("AG late <= {most}"));
+        holds(rounds, &Requirement { id, sentence: String::new(), watches: vec![watch], text })
+    };
+    (0..4).find(within).unwrap_or(4)
+}
+
+#[test]
+fn the_checker_finds_the_rounds_of_each_reaction_and_no_more() {
+    let text = SCOUT.replace("restart = { module = \"scan\", times = 2 }", "");
+    let text = text + MORE_FAILS;
+    let text = text.replace("\"stuck\"] }", "\"stuck\", \"no link\", \"base silent\"] }");
+    let robot = Robot::parse("scout.toml", &text).unwrap_or_else(|it| panic!("{it}"));
+    let rounds = system(&robot).with(|it| rounds(it).unwrap());
+    let found: Vec<_> = ["LID1", "CAM1", "STK1", "BAS1"]
+        .into_iter()
+        .map(|id| {
+            let report = robot.losses.reports.iter().position(|it| it.name == id).unwrap();
+            (most_rounds(&robot, &rounds, report), robot.reacts_in(robot.failure(id).unwrap()))
+        })
+        .collect();
+    assert_eq!(found, [(3, Some(3)), (3, Some(3)), (2, Some(2)), (2, Some(2))]);
+}
+
+#[test]
+fn nothing_runs_for_long_that_a_lost_observer_alone_watches() {
+    let eye = "eye = { needs = [\"watch\"], unwatched = \"lost\", flags = [\"scan late\"] }\n\
+        wire = { flags = [\"depth late\", \"stuck\"] }";
+    let text = SCOUT.replace("eye = { flags = [\"scan late\", \"depth late\", \"stuck\"] }", eye);
+    let link = "link = { hardware = [\"radio\"] }";
+    let text = text.replace(link, &format!("{link}\nwatch = {{ hardware = [\"camera\"] }}"));
+    let text = text.replace("required = [\"avoid\"]", "required = [\"avoid\", \"scan\"]");
+    let robot = Robot::parse("scout.toml", &text).unwrap_or_else(|it| panic!("{it}"));
+    let mut made = system(&robot);
+    assert_eq!(broken(&robot, &made), Vec::<String>::new());
+    // The scanner works, but nobody watches it: what was told of its observer is recorded only.
+    change(&mut made, "cs", "CAM1", |it| it.emits.clear());
+    assert_eq!(broken(&robot, &made), ["OB1.eye", "AS4.Careful"]);
+}
+
+#[test]
+fn a_row_that_asks_first_does_so_and_then_goes_on() {
+    let row = "flags = [\"depth late\"]\n";
+    let more = "ask = { times = 1 }\nmask = { flags = [\"depth late\"], on = \"order\" }\n";
+    let text = SCOUT.replace(row, &format!("{row}{more}"));
+    let robot = Robot::parse("scout.toml", &text).unwrap_or_else(|it| panic!("{it}"));
+    let mut made = system(&robot);
+    assert_eq!(broken(&robot, &made), Vec::<String>::new());
+    change(&mut made, "cs", "ask_CAM1_Follow", |it| it.emits.clear());
+    // What runs goes on without its camera, too.
+    assert_eq!(broken(&robot, &made), ["CS5.CAM1", "AS4.Careful"]);
+}
+
 /// Draws robots; each loads and keeps its requirements, or is refused for its faults. Returns how
 /// many load.
 fn robots(seed: u64, count: usize) -> usize {
@@ -146,7 +222,13 @@ fn robots(seed: u64, count: usize) -> usize {
             }
             Err(errors) => {
                 let said = errors.to_string();
-                let known = ["stands on no hardware", "never runs", "starts", "nobody to ask"];
+                let known = [
+                    "stands on no hardware",
+                    "never runs",
+                    "starts",
+                    "nobody to ask",
+                    "nobody orders",
+                ];
                 let found: BTreeSet<_> = known.into_iter().filter(|it| said.contains(it)).collect();
                 // That nothing leads to a configuration follows from severities, which `faults`
                 // does not look at.

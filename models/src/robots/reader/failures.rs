@@ -6,7 +6,7 @@ use crate::missions::reader::fields::Fields;
 use crate::missions::{Diagnostic, Spanned};
 use crate::names::quoted;
 use crate::robots::known::{PERSISTENCES, RESTARTS, SEVERITIES, TIMES};
-use crate::robots::{Failure, Motion, Parts, Restarts};
+use crate::robots::{Failure, Motion, Parts, Restarts, Try};
 use crate::severity::{Persistence, Severity};
 use cotama_core::units::Millis;
 
@@ -16,6 +16,8 @@ const MOST_MH: u64 = 8_766_000_000_000;
 /// The failures of a row: one, or one for each module of `each`, which is lost with it.
 pub(super) fn failures(mut fields: Fields<'_>, names: &mut Names) -> Option<Vec<Failure>> {
     let span = fields.span_of("id");
+    let mask = if fields.has("mask") { fields.span_of("mask") } else { span.clone() };
+    let ask = if fields.has("ask") { fields.span_of("ask") } else { span.clone() };
     let each = fields.optional_texts("each").ok();
     let each = each.and_then(|all| {
         let known = || names.modules.iter().map(String::as_str);
@@ -26,6 +28,8 @@ pub(super) fn failures(mut fields: Fields<'_>, names: &mut Names) -> Option<Vec<
     let row = failure(fields, names, has_each);
     let count = each.as_ref().map_or(1, |it| it.len().max(1));
     names.at.failures.extend(std::iter::repeat_n(span, count));
+    names.at.masks.extend(std::iter::repeat_n(mask, count));
+    names.at.asks.extend(std::iter::repeat_n(ask, count));
     let ((row, own), each) = (row?, each?);
     if each.is_empty() {
         return Some(vec![row]);
@@ -99,6 +103,16 @@ fn failure(
         Err(_) => None,
     };
     let sets = super::settings::setting(&mut fields, names);
+    let asks = super::reactions::asks(&mut fields);
+    let own: Vec<_> = flags.iter().chain(&sometimes).flatten().copied().collect();
+    let masks = super::reactions::masks(&mut fields, names, &own);
+    let tried = [
+        matches!(restarts, Some(Some(_))).then_some(Try::Restart),
+        matches!(&sets, Ok(Some(it)) if it.times.is_some()).then_some(Try::Set),
+        matches!(asks, Ok(Some(_))).then_some(Try::Ask),
+    ];
+    let tried: Vec<_> = tried.into_iter().flatten().collect();
+    let tries = super::reactions::order(&mut fields, &tried);
     let mean = match fields.optional_number("mean_hours") {
         Ok(None) => Some(None),
         Ok(Some(it)) => mean(&fields, &it).map(Some),
@@ -133,6 +147,9 @@ fn failure(
         unanswered: unanswered.ok()?.unwrap_or(false),
         restarts,
         sets: sets.ok()?,
+        asks: asks.ok()?,
+        masks: masks.ok()?,
+        tries: tries?,
         mean_mh: mean?,
         source,
     };

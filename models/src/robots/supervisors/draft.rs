@@ -60,6 +60,10 @@ impl Line {
         self
     }
 
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
     /// The same under another name.
     pub(super) fn named(self, name: String) -> Self {
         Self { name, ..self }

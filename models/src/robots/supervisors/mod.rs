@@ -36,6 +36,7 @@ use cotama_core::net::owned::OwnedNet;
 use joined::Joined;
 pub(super) use nets::lost;
 use nets::{configuration, has_adapter, parts};
+pub(super) use observing::asks_now;
 
 /// Returns a name as nets have it: letters, digits and `_`.
 pub(crate) fn word(name: &str) -> String {
@@ -175,6 +176,10 @@ pub fn of_mission(robot: &Robot, steps: &[Step]) -> OwnedSystem {
             system.mail(("gom", &told), ("cs", &told));
         }
         system.mail(("faults", &flag), ("gom", &flag));
+        if report.asks.is_some() {
+            let asks = format!("ask_{}", word(&report.name));
+            system.mail(("gom", &asks), ("cs", &asks));
+        }
     }
     for it in robot.losses.losses.iter().filter(|it| it.returns) {
         let back = format!("back_{}", word(&it.name));

@@ -3,7 +3,9 @@
 use super::cubes::{Cube, cubes};
 use super::draft::{Draft, Line};
 use super::{told, told_alone, told_as, word};
-use crate::robots::{Decision, Mode, Robot, Situation, SubObjective, Where, decide};
+use crate::robots::{
+    Decision, Mode, Report, Robot, Situation, SubObjective, Where, ask_first, decide,
+};
 use cotama_core::net::owned::OwnedNet;
 
 /// A sub-objective with its number and its name in nets.
@@ -202,7 +204,15 @@ pub(super) fn adapter(robot: &Robot, of: &Part<'_>) -> OwnedNet {
     net.done()
 }
 
-/// The contextual supervisor: [`decide`] as a net.
+/// A decision on a report, by its number.
+type Decides = fn(&Robot, usize, Situation) -> Decision;
+
+/// The reports that ask the operator first, by number.
+fn asking(robot: &Robot) -> impl Iterator<Item = (usize, &Report)> {
+    robot.losses.reports.iter().enumerate().filter(|it| it.1.asks.is_some())
+}
+
+/// The contextual supervisor: [`decide`] and [`ask_first`] as a net.
 pub(super) fn contextual(robot: &Robot) -> OwnedNet {
     let doc = "Contextual supervisor: what a report means where the robot is.";
     let mut net = Draft::new("contextual", doc);
@@ -220,23 +230,29 @@ pub(super) fn contextual(robot: &Robot) -> OwnedNet {
     for (number, failures) in told_alone(robot) {
         net.event(&told_as(robot, number), &told(robot, &failures));
     }
+    for it in asking(robot) {
+        let doc = format!("{}: the operator is asked first.", told(robot, &it.1.failures));
+        net.event(&format!("ask_{}", word(&it.1.name)), &doc);
+    }
     net.output("global_event", "");
     net.output("local_event", "");
     let adapters = all.iter().filter(|it| has_adapter(it.is));
     adapters.for_each(|it| net.output(&format!("adapt_{}", it.name), ""));
 
-    for (number, report) in robot.losses.reports.iter().enumerate() {
-        if robot.losses.told_as(number) != number {
-            continue;
-        }
+    let alone = robot.losses.reports.iter().enumerate();
+    let alone = alone.filter(|it| robot.losses.told_as(it.0) == it.0);
+    let alone = alone.map(|(number, it)| (number, it, word(&it.name), decide as Decides));
+    let asking = asking(robot)
+        .map(|(number, it)| (number, it, format!("ask_{}", word(&it.name)), ask_first as Decides));
+    for (number, report, event, decide) in alone.chain(asking) {
         let given = report.loss.map_or(0, |it| 1 << it);
         let mut place = |at: Where, wheres: &[(String, bool)], adapter: &str, name: &str| {
             let of = |lost: u32| decide(robot, number, Situation { at, lost });
             let cases = cubes(robot.losses.all(), given, &of).into_iter();
             let cases = cases.filter(|it| it.1 != Decision::Record).enumerate();
             for (variant, (cube, decision)) in cases {
-                let name = format!("{}_{name}{}", word(&report.name), variant + 1);
-                let line = Line::on(name, word(&report.name)).goes("Ready", "Ready");
+                let name = format!("{event}_{name}{}", variant + 1);
+                let line = Line::on(name, &event).goes("Ready", "Ready");
                 let line = wheres.iter().fold(line, |line, it| line.when(&it.0, it.1));
                 let line = case(robot, line, cube);
                 net.line(match decision {

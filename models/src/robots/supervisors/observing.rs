@@ -3,7 +3,7 @@
 use super::draft::{Draft, Line};
 use super::nets::lost;
 use super::{told, told_as, word};
-use crate::robots::Robot;
+use crate::robots::{Report, Robot, Try};
 use cotama_core::net::owned::OwnedNet;
 
 /// The global observation module: from flags to reports, and which losses are known (Durand et
@@ -21,41 +21,31 @@ pub(super) fn observation(robot: &Robot) -> OwnedNet {
         net.event(&format!("flag_{name}"), &told(robot, &report.failures));
         net.output(&tells, "");
         let mut line = Line::on(name.clone(), format!("flag_{name}")).goes("Ready", "Ready");
-        if let Some(it) = report.restarts {
-            let module = robot.modules.get(it.module).map_or("", |it| it.name.as_str());
-            let shared = it.shared.and_then(|it| robot.shared.get(it)).map(|it| word(it));
-            let doc = match &shared {
-                Some(_) => "How often a module may still be started anew.".to_owned(),
-                None => format!("How often {module} may still be started anew."),
-            };
-            let of = shared.unwrap_or_else(|| name.clone());
-            let restart = format!("restart_{}", word(module));
-            let it = Tried { output: restart, done: "restarts", of, times: it.times, doc };
-            line = it.before(line, &mut net, &name);
+        let flag = report.loss.map(|it| lost(robot, it));
+        let mask = report.masks.as_ref().map(|it| (format!("mask_{name}"), it.on_order));
+        if let Some((mask, _)) = &mask {
+            net.output(mask, "");
         }
-        if let Some(it) = &report.sets {
+        for it in &report.tries {
+            line = tried(robot, report, *it).before(line, &mut net, &name, |asks| {
+                // The operator may order a mask when he is asked.
+                let order = mask.as_ref().filter(|it| it.1).map(|it| it.0.clone());
+                let asks = order.into_iter().fold(asks, Line::emits);
+                known(asks, flag.as_deref())
+            });
+        }
+        if report.sets.as_ref().is_some_and(|it| it.times.is_none()) {
             let set = format!("set_{name}");
-            line = if let Some(times) = it.times {
-                let doc = "How often a setting alone may still be the answer.".to_owned();
-                let of = name.clone();
-                Tried { output: set, done: "sets", of, times, doc }.before(line, &mut net, &name)
-            } else {
-                net.output(&set, "");
-                line.emits(set)
-            };
+            net.output(&set, "");
+            line = line.emits(set);
         }
-        let Some(loss) = report.loss else {
-            net.line(line.emits(tells));
-            continue;
-        };
-        let flag = lost(robot, loss);
-        let again = line.clone().when(&flag, true).emits(tells.clone());
-        net.line(line.raises(&flag).emits(tells));
-        // Known already, but worse than what told of it, or answered by a setting too.
+        line = mask.into_iter().fold(line, |line, it| line.emits(it.0));
+        // Known already, but worse than what told of it, or answered by more than that.
         let worst = report.autonomous.max(report.operator);
-        if worst >= crate::severity::Severity::Hard || report.sets.is_some() {
-            net.line(again.named(format!("{name}_again")));
-        }
+        let more = report.sets.is_some() || report.asks.is_some() || report.masks.is_some();
+        let again = worst >= crate::severity::Severity::Hard || more;
+        let lines = known(line.emits(tells), flag.as_deref());
+        lines.into_iter().take(if again { 2 } else { 1 }).for_each(|it| net.line(it));
     }
     for (number, it) in robot.losses.losses.iter().enumerate().filter(|it| it.1.returns) {
         let (flag, back) = (lost(robot, number), format!("back_{}", word(&it.name)));
@@ -66,7 +56,14 @@ pub(super) fn observation(robot: &Robot) -> OwnedNet {
     net.done()
 }
 
-/// A reaction that is tried so many times before anything is told.
+/// A line that makes a loss known, and the same where it is known already; of none, the line.
+fn known(line: Line, flag: Option<&str>) -> Vec<Line> {
+    let Some(flag) = flag else { return vec![line] };
+    let again = format!("{}_again", line.name());
+    vec![line.clone().raises(flag), line.when(flag, true).named(again)]
+}
+
+/// A reaction that is tried so many times before anything is decided.
 struct Tried {
     output: String,
     done: &'static str,
@@ -76,16 +73,73 @@ struct Tried {
     doc: String,
 }
 
+/// A step of the reaction to a report.
+fn tried(robot: &Robot, report: &Report, it: Try) -> Tried {
+    let name = word(&report.name);
+    match it {
+        Try::Restart => {
+            let it = report.restarts;
+            let module = it.and_then(|it| robot.modules.get(it.module));
+            let module = module.map_or("", |it| it.name.as_str());
+            let shared = it.and_then(|it| it.shared).and_then(|it| robot.shared.get(it));
+            let doc = match shared {
+                Some(_) => "How often a module may still be started anew.".to_owned(),
+                None => format!("How often {module} may still be started anew."),
+            };
+            Tried {
+                output: format!("restart_{}", word(module)),
+                done: "restarts",
+                of: shared.map_or(name, |it| word(it)),
+                times: it.map_or(0, |it| it.times),
+                doc,
+            }
+        }
+        Try::Set => Tried {
+            output: format!("set_{name}"),
+            done: "sets",
+            of: name,
+            times: report.sets.as_ref().and_then(|it| it.times).unwrap_or(0),
+            doc: "How often a setting alone may still be the answer.".to_owned(),
+        },
+        Try::Ask => Tried {
+            output: format!("ask_{name}"),
+            done: "asks",
+            of: name,
+            times: report.asks.unwrap_or(0),
+            doc: "How often the operator may still be asked first.".to_owned(),
+        },
+    }
+}
+
+/// Returns the condition under which a report asks the operator first: what comes before is spent,
+/// and he may be asked once more.
+pub(in crate::robots) fn asks_now(robot: &Robot, report: usize) -> String {
+    let Some(report) = robot.losses.reports.get(report) else { return String::new() };
+    let before = report.tries.iter().take_while(|it| **it != Try::Ask);
+    let before = before.map(|it| tried(robot, report, *it));
+    let spent = before.map(|it| format!("gom.{}_spent_{} >= {}", it.done, it.of, it.times));
+    let asks = format!("gom.asks_{} >= 1", word(&report.name));
+    spent.chain([asks]).collect::<Vec<_>>().join(" & ")
+}
+
 impl Tried {
     /// Tries it under the conditions of a line; returns the line with the condition that it was
-    /// tried as often as it may.
-    fn before(self, line: Line, net: &mut Draft, name: &str) -> Line {
+    /// tried as often as it may. `asks` makes known what is lost when the operator is asked.
+    fn before(
+        self,
+        line: Line,
+        net: &mut Draft,
+        name: &str,
+        asks: impl Fn(Line) -> Vec<Line>,
+    ) -> Line {
         let Self { output, done, of, times, doc } = self;
         let (left, spent) = (format!("{done}_{of}"), format!("{done}_spent_{of}"));
         net.store(&left, &spent, u32::from(times), &doc);
         net.output(&output, "");
         let first = line.clone().named(format!("{name}_{done}"));
-        net.line(first.goes(&left, &spent).emits(output));
+        let first = first.goes(&left, &spent).emits(output);
+        let lines = if done == "asks" { asks(first) } else { vec![first] };
+        lines.into_iter().for_each(|it| net.line(it));
         line.when_at_least(&spent, u32::from(times))
     }
 }

@@ -1,4 +1,5 @@
 mod broken;
+mod reactions;
 mod settings;
 
 use super::supervisors::{OwnedSystem, system, word};
@@ -77,6 +78,74 @@ fn the_contextual_net_decides_as_the_function_in_every_situation() {
         }
     }
     assert_eq!(compared, 128_080);
+}
+
+/// A robot whose scanner is watched by a module that can be lost itself.
+const WATCHED: &str = r#"format = "cotama-robot/1"
+name = "watched"
+hardware = { base = {}, lidar = {}, board = {} }
+[module]
+drive = { hardware = ["base"] }
+scan = { hardware = ["lidar"] }
+watch = { hardware = ["board"] }
+[observer.eye]
+needs = ["watch"]
+unwatched = "lost"
+flags = ["late"]
+[observer.wire]
+flags = ["board silent", "base silent"]
+[[configuration]]
+name = "Careful"
+sub_objective = "Follow"
+mode = "autonomous"
+required = ["scan", "drive"]
+speed_mm_s = 500
+[[configuration]]
+name = "Blind"
+sub_objective = "Follow"
+mode = "autonomous"
+required = ["drive"]
+speed_mm_s = 100
+[[failure]]
+id = "LID1"
+mode = "no scan"
+severity = { autonomous = "medium" }
+flags = ["late"]
+loses = ["lidar"]
+[[failure]]
+id = "WAT1"
+mode = "no watch"
+severity = { autonomous = "weak" }
+flags = ["board silent"]
+loses = ["board"]
+[[failure]]
+id = "BAS1"
+mode = "no answer"
+severity = { autonomous = "fatal" }
+flags = ["base silent"]
+loses = ["base"]
+"#;
+
+#[test]
+fn a_module_that_nobody_watches_any_more_counts_as_lost_where_the_file_says_so() {
+    let at = Where::Runs { sub_objective: 0, configuration: 0 };
+    let decided = |text: &str| {
+        let robot = Robot::parse("watched.toml", text).unwrap_or_else(|it| panic!("{it}"));
+        let watch = robot.failure("WAT1").unwrap();
+        let report = robot.losses.reports.iter().position(|it| it.failures.contains(&watch));
+        let decided = decide(&robot, report.unwrap(), Situation { at, lost: 0 });
+        (decided, robot.losses.losses.len(), robot.failures[watch].reaction(&robot))
+    };
+    let kept = WATCHED.replace("unwatched = \"lost\"\n", "");
+    assert_eq!(decided(&kept), (Decision::Record, 2, "record".to_owned()));
+    assert_eq!(decided(WATCHED), (Decision::Adapt, 3, "another configuration".to_owned()));
+    // The scanner is watched by somebody else too.
+    let also =
+        WATCHED.replace("flags = [\"late\"]\nloses", "flags = [\"late\", \"base silent\"]\nloses");
+    assert_eq!(decided(&also).0, Decision::Record);
+    let wrong = WATCHED.replace("needs = [\"watch\"]", "needs = [\"board\"]");
+    let errors = Robot::parse("watched.toml", &wrong).unwrap_err().to_string();
+    assert!(errors.starts_with("watched.toml:10:13: `eye` is never blind"), "{errors}");
 }
 
 #[test]

@@ -30,6 +30,8 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let shown = self.failures.shown(self.tables());
         let adapts = self.decider.adapted().ends_at(self.tables(), shown, self.now);
         most = returns.into_iter().chain(adapts).fold(most, |most, it| most.min(until(it)));
+        let unmasks = self.decider.unmasks_at(self.now);
+        most = unmasks.map_or(most, |it| most.min(until(it)));
         let changes = self.failures.changes(self.robot, self.now);
         most = changes.map_or(most, |it| most.min(until(it)));
         let ends = self.failures.all.iter().zip(&self.until).filter(|it| !it.0.over);

@@ -139,6 +139,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
                 place: fired.place.to_owned(),
                 cause: (cause.0 > 0).then_some(cause.0),
                 sets: self.setting(fired.sets).map(|it| it.text(self.robot)),
+                masks: self.mask(fired.masks).map(|it| it.text(self.robot)),
             })
         });
     }
@@ -146,6 +147,11 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// Returns the setting of a report.
     fn setting(&self, report: Option<usize>) -> Option<&robots::Setting> {
         self.robot.losses.reports.get(report?)?.sets.as_ref()
+    }
+
+    /// Returns the mask of a report.
+    fn mask(&self, report: Option<usize>) -> Option<&robots::Mask> {
+        self.robot.losses.reports.get(report?)?.masks.as_ref()
     }
 
     pub(super) fn record_decision<R: Recorder>(
