@@ -363,6 +363,9 @@ pub(crate) struct RunBody {
     pub(crate) report: Option<String>,
     /// The path of the trace.
     pub(crate) trace: Option<String>,
+    /// Paths of the files for other tools.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) recordings: Vec<String>,
 }
 
 /// A plan that came into force.

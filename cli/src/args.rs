@@ -12,6 +12,7 @@ mod mission;
 mod model;
 mod new;
 mod number;
+mod recording;
 mod schema;
 mod team;
 
@@ -24,10 +25,12 @@ pub(crate) use fitted::command;
 pub(crate) use floor::FloorArgs;
 pub(crate) use fmeca::{FmecaArgs, FmecaFormat};
 pub(crate) use mission::{
-    AllocateArgs, AllocatorName, Lost, Objective, PlanArgs, Planning, ReplayArgs, RunArgs, STEPS,
+    AllocateArgs, AllocatorName, Fidelity, Lost, Objective, PlanArgs, Planning, ReplayArgs,
+    RunArgs, STEPS,
 };
 pub(crate) use model::{DrawnAs, ExportArgs, Format, ModelsArgs, SimulateArgs};
 pub(crate) use new::{NewArgs, NewKind};
+pub(crate) use recording::RecordingArgs;
 pub(crate) use schema::{SchemaArgs, SchemaName};
 pub(crate) use team::TeamArgs;
 
@@ -112,7 +115,8 @@ Examples:
   $ cotama run fleet --robots 12 --tasks 40 --loss 10
   $ cotama run patrol --faults none --report quiet-patrol
   $ cotama run patrol --lost laser:1 --allocator exact --json
-  $ cotama run patrol --trace patrol.jsonl && cotama replay patrol.jsonl")]
+  $ cotama run patrol --trace patrol.jsonl && cotama replay patrol.jsonl
+  $ cotama run delivery --fidelity plane --mcap delivery.mcap --csv delivery.csv")]
     Run(RunArgs),
     /// Solves a bare allocation problem, without a mission
     ///

@@ -61,7 +61,7 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
     if let Some(team) = Chosen::of(&args.scenario)? {
         return of_team(args, &team, screen);
     }
-    let mission = mission::load(&args.scenario, Some(screen))?;
+    let mission = mission::loaded(&args.scenario, args.supervised.as_deref(), Some(screen))?;
     if args.compare {
         return compared::compared(args, &mission, screen);
     }
@@ -76,13 +76,15 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
     let header = Header::new(texts, &campaign.settings, args.policy().name(), shard);
     let robot = mission.robot().map(RobotText::of);
     let floor = mission.way.as_ref().map(FloorText::of);
-    conduct(args, &Header { planner, robot, floor, ..header }, &campaign, screen)
+    let fidelity = policy.fidelity;
+    conduct(args, &Header { planner, robot, floor, fidelity, ..header }, &campaign, screen)
 }
 
 /// Runs a campaign over a team.
 fn of_team(args: &CampaignArgs, team: &Chosen, screen: &Screen) -> Result<Exit, Failure> {
     let given = [
         ("--compare", args.compare),
+        ("--supervised", args.supervised.is_some()),
         ("--policy", args.policy.is_some()),
         ("--objective", args.objective.is_some()),
         ("--allocator", args.allocator.is_some()),

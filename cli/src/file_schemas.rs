@@ -10,7 +10,7 @@ mod robot;
 pub(crate) use robot::robot as robot_file;
 
 use cotama_core::hardware::{MAX_KINDS, MAX_UNITS};
-use cotama_models::missions::faults::{self, Adapts, OUTCOMES};
+use cotama_models::missions::faults::{self, Adapts, FIDELITIES, OUTCOMES};
 use cotama_models::missions::known::{
     ALLOCATORS, AT_LEAST_ZERO, COUNTS, ENERGIES, EVENTS, INCIDENTS, NAME_LENGTHS, NEEDED_UNITS,
     OBJECTIVES, PER_KM, PERIODS, POSITIVE, POWER_ERRORS, QUALITIES, RANDOM_EVENTS, ROUNDINGS,
@@ -122,6 +122,7 @@ fn planner() -> Value {
     let can = [
         ("steps", integer(&SEARCHES, "the most steps of a search; 50,000,000")),
         ("policy", choice(&Adapts::NAMES.map(|it| it.0), "how plans are adapted; `\"usual\"`")),
+        ("fidelity", choice(&FIDELITIES, "how closely the robot was modelled; `\"line\"`")),
     ];
     table(&needs, &can, "who plans when `cotama replay` runs it")
 }
@@ -137,6 +138,7 @@ fn expected() -> Value {
     ];
     let can = [
         ("mission", text("the mission: its name, or the path of its file")),
+        ("robot", text("the robot that supervises it, where it names none")),
         ("seed", count("the seed of the run; 0")),
         ("replans", count("how often plans were made again")),
         ("requests", count("how often the operator was asked")),

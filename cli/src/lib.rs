@@ -38,6 +38,7 @@ mod plan;
 mod progress;
 #[cfg(any(test, feature = "fuzz"))]
 pub mod readers;
+mod recording;
 mod render;
 mod replay;
 mod robot;

@@ -30,8 +30,8 @@ pub(crate) fn under(name: &str, robot: &str) -> Result<Mission, Failure> {
     if mission.is_supervised() { Ok(mission) } else { loaded(name, Some(robot), None) }
 }
 
-/// The same; `supervised` is the robot whose supervisors are to decide.
-fn loaded(
+/// The mission of this name; `supervised` is the robot whose supervisors are to decide.
+pub(crate) fn loaded(
     name: &str,
     supervised: Option<&str>,
     screen: Option<&Screen>,

@@ -9,6 +9,7 @@ use crate::kind::{self, Kind};
 use crate::mission;
 use crate::names;
 use crate::output::{self, Screen};
+use crate::recording;
 use crate::render;
 use crate::run::{body, ended, refused, replay_faults, replay_team, write_files};
 use crate::words;
@@ -28,6 +29,7 @@ pub(crate) fn replay(args: &ReplayArgs, screen: &Screen) -> Result<Exit, Failure
     if let Some(folder) = &args.report {
         output::report(folder)?;
     }
+    recording::places(&args.recording)?;
     let wanted = [Kind::Trace, Kind::Faults, Kind::TeamTrace, Kind::TeamFaults];
     let text = kind::text(&args.file, "a trace", input::TRACE_BYTES, &wanted)?;
     if kind::is_of(&text, Kind::TeamTrace) {
@@ -39,13 +41,16 @@ pub(crate) fn replay(args: &ReplayArgs, screen: &Screen) -> Result<Exit, Failure
     let is_trace = text.trim_start().starts_with('{');
     let Replayed { mission, trace, run, compared } =
         if is_trace { stored(args, &text)? } else { faults(args, &text, screen)? };
+    let remedy = "record it in the plane: cotama run MISSION --fidelity plane --trace FILE.jsonl";
+    recording::needs_plane(&args.recording, trace.header.options.fidelity, remedy)?;
     let mut run_body = body(&trace, &run, &mission.name);
     let file = is_trace.then_some(args.file.as_str()).filter(|it| *it != "-");
     write_files(args.report.as_deref(), args.trace.as_deref(), &trace, file, &mut run_body)?;
+    run_body.recordings = recording::write(&args.recording, &trace)?;
     let options = &trace.header.options;
     let (planner, upward, rigid) =
         (Some(options.allocator), options.upward.is_some(), options.rigid);
-    let planner = Policy { planner, upward, rigid }.words(&mission);
+    let planner = Policy { planner, upward, rigid, ..Policy::default() }.words(&mission);
     let answer = answer(planner, &compared, run_body);
     if args.json.json {
         Screen::json(&answer)?;
@@ -142,7 +147,8 @@ fn faults(args: &ReplayArgs, text: &str, screen: &Screen) -> Result<Replayed, Fa
         return Err(Failure::of(input::name(&args.file), message)
             .help(format!("cotama replay {} --mission patrol", names::quoted(&args.file))));
     };
-    let mission = mission::load(&name, Some(screen))?;
+    let robot = FaultsFile::robot_of(text);
+    let mission = mission::loaded(&name, robot.as_deref(), Some(screen))?;
     let file = FaultsFile::parse(&args.file, text, &mission)?;
     let compared = match &file.expected {
         None => Compared::Nothing,

@@ -1,7 +1,7 @@
 //! `cotama run`: a mission planned, run with its faults, planned again where needed, and reported.
 
 use crate::answers::{Outcome, RunAnswer, RunBody};
-use crate::args::{Lost, RunArgs};
+use crate::args::{Fidelity, Lost, RunArgs};
 use crate::exit::{Exit, Failure};
 use crate::infeasible;
 use crate::input;
@@ -9,6 +9,7 @@ use crate::kind::{self, Kind};
 use crate::mission;
 use crate::names;
 use crate::output::{self, Screen};
+use crate::recording;
 use crate::render;
 use crate::render::numbers::count;
 use crate::team::Chosen;
@@ -19,7 +20,7 @@ use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Event, EventKind, Faults, FaultsFile};
 use cotama_pages::mission as page;
 use cotama_sim::options::{FaultChoice, Options, upward};
-use cotama_sim::robots::Script;
+use cotama_sim::robots::{Script, Undriven};
 use cotama_sim::run::{NoPlan, Reason, Run};
 use cotama_sim::trace::{RecordError, Trace};
 use std::path::{Path, PathBuf};
@@ -39,12 +40,15 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
     if let Some(folder) = &args.report {
         output::report(folder)?;
     }
+    recording::places(&args.recording)?;
     if let Some(team) = Chosen::of(&args.mission.mission)? {
         return team::run(args, &team, screen);
     }
     team::none_given(args)?;
     team::not_meant(&args.mission.mission)?;
     mission::pursued(args.objective, args.planning.allocator)?;
+    let remedy = "--fidelity plane drives it over its floor";
+    recording::needs_plane(&args.recording, args.fidelity.into(), remedy)?;
     let mission = mission::load_for(&args.mission.mission, &args.planning, Some(screen))?;
     let options = options(args, &mission)?;
     if let Some(note) = planned_otherwise(args, &options, &mission) {
@@ -80,6 +84,7 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
     let report = args.report.clone().unwrap_or_else(|| default_folder(mission.source()));
     let report = (!args.no_report).then_some(report.as_path());
     write_files(report, args.trace.as_deref(), &trace, None, &mut body)?;
+    body.recordings = recording::write(&args.recording, &trace)?;
     let answer = RunAnswer { schema: "cotama/run/1", run: body };
     if args.json.json {
         Screen::json(&answer)?;
@@ -141,6 +146,10 @@ pub(crate) fn ended(run: &Run) -> Exit {
 pub(crate) fn refused(error: RecordError) -> Failure {
     match error {
         RecordError::Text(errors) => errors.into(),
+        RecordError::Undriven(Undriven::Plain) => {
+            let message = "only a robot with a file drives in the plane";
+            Failure::new(message).help("--supervised ROBOT puts the mission under one")
+        }
         RecordError::Setup(_) | RecordError::Undriven(_) => Failure::new(error.to_string()),
         RecordError::Infeasible { .. } => Failure::new(error.to_string())
             .help("`cotama plan MISSION` says what weighs most, and what would help"),
@@ -173,6 +182,7 @@ fn never_left(
         supervised: None,
         report: None,
         trace: None,
+        recordings: Vec::new(),
     };
     let answer = RunAnswer { schema: "cotama/run/1", run: body };
     if args.json.json {
@@ -181,8 +191,8 @@ fn never_left(
         let next = next(args, mission, &answer.run);
         screen.print(&render::run::screen(&answer.run, None, next, screen.width()))?;
     }
-    if args.report.is_some() || args.trace.is_some() {
-        screen.note("nothing was run: neither a report nor a trace is written");
+    if args.report.is_some() || args.trace.is_some() || args.recording.first().is_some() {
+        screen.note("nothing was run: no file is written");
     }
     Ok(if matches!(reason, NoPlan::Unknown { .. }) { Exit::Unknown } else { Exit::Violated })
 }
@@ -194,6 +204,10 @@ fn options(args: &RunArgs, mission: &Mission) -> Result<Options, Failure> {
             Failure::new(message).help("name a failure in a file of faults: kind = \"failure\"")
         );
     }
+    if args.people > 0 && args.fidelity == Fidelity::Line {
+        let message = "--people walk in the plane, and this run is on a line";
+        return Err(Failure::new(message).help("add --fidelity plane"));
+    }
     let allocator = args.planning.allocator;
     let objective = mission::objective(args.objective, allocator, mission);
     let planner = mission::planner(objective, allocator, args.planning.steps)?;
@@ -204,6 +218,8 @@ fn options(args: &RunArgs, mission: &Mission) -> Result<Options, Failure> {
         planner: Some(planner),
         rigid: false,
         upward: args.upward.then(|| upward(mission.limits)),
+        fidelity: args.fidelity.into(),
+        people: usize::try_from(args.people).unwrap_or(usize::MAX),
     })
 }
 

@@ -30,8 +30,15 @@ impl Words {
         add("--seed", Some(args.seed).filter(|&it| it != 0).map(|it| it.to_string()));
         add("--faults", Some(args.faults.clone()).filter(|it| it != "script"));
         add("--monitor-period", args.monitor_period.map(|it| it.to_string()));
+        let fidelity = args.fidelity.to_possible_value().map(|it| it.get_name().to_owned());
+        add("--fidelity", fidelity.filter(|it| it != "line"));
         add("--report", args.report.as_ref().map(|it| it.display().to_string()));
         options.extend(args.upward.then_some(("--upward", None)));
+        let people = Some(args.people).filter(|it| *it > 0).map(|it| it.to_string());
+        options.extend(people.map(|it| ("--people", Some(it))));
+        let robot = args.planning.supervised.as_ref();
+        let robot = robot.map(|it| ("--supervised", Some(it.clone()).filter(|it| !it.is_empty())));
+        options.extend(robot);
         options.extend(args.no_report.then_some(("--no-report", None)));
         words
     }

@@ -44,6 +44,11 @@ fn hints_repeat_the_options_and_run() {
             "run patrol --no-report --energy-limit 4000000",
             "cotama run patrol --energy-limit 4675896 --no-report",
         ),
+        (
+            "run patrol --supervised --fidelity plane --no-report",
+            "cotama run patrol --fidelity plane --supervised --no-report --trace run.jsonl && \
+             cotama replay run.jsonl",
+        ),
     ] {
         let said = next(&folder, line);
         assert_eq!(said.as_deref(), Some(hint), "{line}");

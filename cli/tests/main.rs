@@ -38,6 +38,7 @@ mod own_supervisor;
 mod places;
 mod plan;
 mod questions;
+mod recording;
 mod reference;
 mod replay;
 mod robots;

@@ -34,6 +34,29 @@ pub struct Options {
     pub rigid: bool,
     /// When better plans are looked for; never if none. Growth and reserve are ms and mJ.
     pub upward: Option<Upward<2>>,
+    /// How closely the robot is modelled.
+    pub fidelity: Fidelity,
+    /// How many people walk on the floor, in the plane.
+    pub people: usize,
+}
+
+/// How closely a robot is modelled. Supervisors, plans and faults are the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Fidelity {
+    /// A point on its path.
+    #[default]
+    Line,
+    /// Two wheels that follow the path over a floor, with a pose that is known.
+    Plane,
+}
+
+impl Fidelity {
+    /// Whether it is on a line, which files need not say.
+    #[allow(clippy::trivially_copy_pass_by_ref)] // as serde asks
+    pub fn is_line(&self) -> bool {
+        *self == Self::Line
+    }
 }
 
 /// When better plans are looked for, where they are: when a margin has grown by a hundredth of its

@@ -11,8 +11,8 @@ use crate::trace::{Margins, Plan, ReturnMargin};
 use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{MAX_AMOUNT, Monitor, Request, Trigger, worst};
 use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
-use cotama_models::missions::Remaining;
 use cotama_models::missions::tables::{Alternative, ENERGY, Rest};
+use cotama_models::missions::{Mission, Remaining};
 
 mod plannable;
 
@@ -379,6 +379,11 @@ impl<'s> Planning<'s> {
             Some([more.0, Millijoules::spent(planned.power, more).map_or(MAX_AMOUNT, |it| it.0)])
         };
         (first..self.choice.len()).filter_map(more).fold([0; 2], add)
+    }
+
+    /// Returns the mission.
+    pub(crate) const fn mission(&self) -> &'s Mission {
+        self.of.mission
     }
 
     /// The activity of an objective that holds a place of the path.

@@ -223,6 +223,8 @@ pub enum Reason {
     Mindless,
     /// A supervised mission was not done after [`LONGEST`].
     TooLong,
+    /// The robot ran against something, in the plane.
+    Touched,
 }
 
 /// Why no plan was found.
@@ -297,6 +299,7 @@ impl Reason {
                 format!("the global supervisor ended the mission: {}", failure(mission, it))
             }
             Self::Mindless => "the laptop is down; the micro-controller stopped the motors".into(),
+            Self::Touched => "it ran against something".into(),
             Self::TooLong => format!("not done after {} s", LONGEST.0 / 1000),
         }
     }

@@ -4,11 +4,13 @@
 //! Every record says when (`t_us`, µs since the start) and where (`x_mm`, whole mm of path that are
 //! behind the robot). Numbers are integers; durations are ms, energies mJ, powers mW, speeds mm/s.
 
+use crate::options::Fidelity;
 use crate::run::Outcome;
 use serde::{Deserialize, Serialize};
 
 mod compare;
 mod floor;
+mod pose;
 mod read;
 mod replay;
 mod robot;
@@ -16,6 +18,7 @@ pub mod supervised;
 
 pub use compare::Difference;
 pub use floor::{FloorText, LegText};
+pub use pose::Pose;
 pub use read::{Head, Limits, Line, TraceError, TraceOf};
 pub use replay::{RecordError, Replayed, replay};
 pub use robot::RobotText;
@@ -103,6 +106,12 @@ pub struct RunOptions {
     /// When better plans were looked for; never if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub upward: Option<RunUpward>,
+    /// How closely the robot was modelled.
+    #[serde(default, skip_serializing_if = "Fidelity::is_line")]
+    pub fidelity: Fidelity,
+    /// How many people walked on the floor.
+    #[serde(default, skip_serializing_if = "pose::is_none")]
+    pub people: usize,
 }
 
 /// The faults of a run.
@@ -177,6 +186,8 @@ pub enum Record {
     Activity(Activity),
     /// The margins were checked.
     Sample(Sample),
+    /// Where the robot is in the plane; after every sample.
+    Pose(Pose),
     /// Something happened to the robot; written when it is over.
     Event(Event),
     /// The operator is asked.
@@ -208,6 +219,7 @@ impl Record {
             Self::Plan(it) => it.t_us,
             Self::Activity(it) => it.t_us,
             Self::Sample(it) => it.t_us,
+            Self::Pose(it) => it.t_us,
             Self::Event(it) => it.t_us,
             Self::Request(it) => it.t_us,
             Self::Abort(it) => it.t_us,
@@ -228,6 +240,7 @@ impl Record {
             Self::Plan(it) => it.x_mm,
             Self::Activity(it) => it.x_mm,
             Self::Sample(it) => it.x_mm,
+            Self::Pose(it) => it.x_mm,
             Self::Event(it) => it.x_mm,
             Self::Request(it) => it.x_mm,
             Self::Abort(it) => it.x_mm,

@@ -9,7 +9,7 @@ use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Event, EventKind, Faults, PowerError, RandomEvent};
 use cotama_sim::faults_text::faults_text;
-use cotama_sim::options::{FaultChoice, Options, Planner};
+use cotama_sim::options::{FaultChoice, Fidelity, Options, Planner};
 use cotama_sim::run::{MAX_REPLANS, Outcome, Reason, Run};
 use cotama_sim::setup::Simulation;
 use cotama_sim::trace::{Occurrence, Record};
@@ -105,6 +105,8 @@ fn case() -> impl Strategy<Value = Case> {
                     monitor_period: period.map(|ms| Millis(ms.max(20))),
                     planner: Some(planner),
                     rigid: false,
+                    fidelity: Fidelity::Line,
+                    people: 0,
                     upward: upward
                         .map(|(t, e, rt, re)| Upward { growth: [t, e], reserve: [rt, re] }),
                 },

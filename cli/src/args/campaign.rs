@@ -1,6 +1,6 @@
 //! The command line of `cotama campaign`.
 
-use super::mission::objectives;
+use super::mission::{Fidelity, objectives};
 use super::number::whole;
 use super::{AllocatorName, Json, Objective, STEPS};
 use crate::exit::Failure;
@@ -64,6 +64,12 @@ pub(crate) struct CampaignArgs {
     /// How plans are adapted; with `exact` also who makes them [default: usual]
     #[arg(long, value_enum, value_name = "HOW")]
     pub(crate) policy: Option<PolicyName>,
+    /// A plain mission under the supervisors of a robot, as in `cotama run`
+    #[arg(long, value_name = "ROBOT", num_args = 0..=1, default_missing_value = "")]
+    pub(crate) supervised: Option<String>,
+    /// How closely the robot is modelled, as in `cotama run`
+    #[arg(long, value_enum, value_name = "HOW", default_value_t = Fidelity::Line)]
+    pub(crate) fidelity: Fidelity,
     /// Objective of the plan, as in `cotama run`: the paper's rule, the most quality, or the least
     /// energy [default: that of the mission file, else quality]
     #[arg(long, value_name = "WHAT", conflicts_with = "compare")]
@@ -148,7 +154,7 @@ impl PolicyName {
 
     /// The policy, of a mission with supervisors or without; by the mission's own planner but for
     /// `exact`.
-    pub(crate) const fn policy(self, supervised: bool, steps: u64) -> Policy {
+    pub(crate) fn policy(self, supervised: bool, steps: u64) -> Policy {
         let exact = if supervised {
             Planner::Exact { aim: Aim::Quality, steps }
         } else {
@@ -160,7 +166,7 @@ impl PolicyName {
             Self::Upward => (None, true, false),
             Self::Rigid => (None, false, true),
         };
-        Policy { planner, upward, rigid }
+        Policy { planner, upward, rigid, ..Policy::default() }
     }
 }
 
@@ -171,6 +177,7 @@ impl CampaignArgs {
     /// A [`Failure`] where steps are given and nothing is searched.
     pub(crate) fn policy_for(&self, mission: &Mission) -> Result<Policy, Failure> {
         let policy = self.policy().policy(mission.is_supervised(), self.steps);
+        let policy = Policy { fidelity: self.fidelity.into(), ..policy };
         if policy.planner.is_some() {
             return Ok(policy);
         }

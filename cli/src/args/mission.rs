@@ -1,7 +1,7 @@
 //! The command line of the commands about missions and plans.
 
 use super::number::{duration, energy, whole};
-use super::{Json, MissionArg, TeamArgs};
+use super::{Json, MissionArg, RecordingArgs, TeamArgs};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -31,10 +31,6 @@ pub(crate) struct Planning {
     /// A plain mission under the supervisors of a robot: its name, or its file [`patrol` has one]
     #[arg(long, value_name = "ROBOT", num_args = 0..=1, default_missing_value = "")]
     pub(crate) supervised: Option<String>,
-    /// How closely the robot is modelled
-    // Hidden while it has one value.
-    #[arg(long, value_enum, value_name = "HOW", default_value_t = Fidelity::Mission, hide = true)]
-    pub(crate) fidelity: Fidelity,
 }
 
 #[derive(Args, Debug)]
@@ -64,7 +60,8 @@ pub(crate) struct RunArgs {
     pub(crate) objective: Option<Objective>,
     #[command(flatten)]
     pub(crate) planning: Planning,
-    /// The seed of all random numbers; of missions under supervisors nothing is random yet
+    /// The seed of all random numbers; of missions under supervisors people in the plane alone are
+    /// drawn
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole(0, u64::MAX))]
     pub(crate) seed: u64,
     /// Faults of the run: none (`none`), those of the mission file (`script`), or a file of faults
@@ -76,6 +73,12 @@ pub(crate) struct RunArgs {
     /// Also looks for better plans when the margins have grown
     #[arg(long)]
     pub(crate) upward: bool,
+    /// How closely the robot is modelled; `plane` is for robots with a file
+    #[arg(long, value_enum, value_name = "HOW", default_value_t = Fidelity::Line)]
+    pub(crate) fidelity: Fidelity,
+    /// How many people walk between the places of the floor, in the plane; the seed draws them
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole(0, 1_000))]
+    pub(crate) people: u64,
     /// The folder of the report, `index.html` [default: report/NAME]
     #[arg(long, value_name = "DIR")]
     pub(crate) report: Option<PathBuf>,
@@ -85,6 +88,8 @@ pub(crate) struct RunArgs {
     /// Writes the trace of the run, as JSON lines
     #[arg(long, value_name = "FILE.jsonl")]
     pub(crate) trace: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) recording: RecordingArgs,
     #[command(flatten)]
     pub(crate) json: Json,
     #[command(flatten)]
@@ -128,6 +133,8 @@ pub(crate) struct ReplayArgs {
     #[arg(long, value_name = "FILE.jsonl")]
     pub(crate) trace: Option<PathBuf>,
     #[command(flatten)]
+    pub(crate) recording: RecordingArgs,
+    #[command(flatten)]
     pub(crate) json: Json,
 }
 
@@ -143,8 +150,19 @@ pub(crate) enum AllocatorName {
 /// How closely the robot is modelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Fidelity {
-    /// Travel, energy, drift and faults
-    Mission,
+    /// A point on its path
+    Line,
+    /// Two wheels that follow the path over a floor; of a mission that names none, along corridors
+    Plane,
+}
+
+impl From<Fidelity> for cotama_sim::options::Fidelity {
+    fn from(it: Fidelity) -> Self {
+        match it {
+            Fidelity::Line => Self::Line,
+            Fidelity::Plane => Self::Plane,
+        }
+    }
 }
 
 /// The objective of a plan.

@@ -41,7 +41,8 @@ pub(super) fn merge(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Failur
     let unknown = || Failure::new("the campaign names a policy or a setting that is not known");
     let policy = PolicyName::ALL.into_iter().find(|it| it.name() == whole.policy);
     let policy = policy.ok_or_else(unknown)?.policy(mission.is_supervised(), STEPS);
-    let policy = Policy { planner: whole.planner.or(policy.planner), ..policy };
+    let planner = whole.planner.or(policy.planner);
+    let policy = Policy { planner, fidelity: whole.fidelity, ..policy };
     let subject =
         Subject::new(&mission, policy).map_err(|error| Failure::new(error.to_string()))?;
     let subject = mission::named(subject, &whole.mission_source);

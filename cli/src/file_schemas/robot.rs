@@ -3,9 +3,10 @@
 use super::DRAFT;
 use super::parts::{choice, flag, id, integer, named, table, tables, text, with, word};
 use cotama_models::robots::known::{
-    ASKS, BODY_SPEEDS, COEFFICIENTS, COSTS, FORMAT, HOLDS, MASKS, MAX_PARAMETERS, MODES, MOTIONS,
-    PERIODS, PERSISTENCES, POSITIVE, POWERS, RADII, RANKS, RESTARTS, SETTINGS, SEVERITIES, SLOWED,
-    SPEEDS, TIMES, TRIES, UNITS, UNWATCHED, VALUES,
+    ASKS, AXLES, BODY_SPEEDS, COEFFICIENTS, COSTS, COUNTS, ERRORS, FORMAT, HOLDS, MASKS,
+    MAX_PARAMETERS, MODES, MOTIONS, PERIODS, PERSISTENCES, POSITIVE, POWERS, RADII, RANKS,
+    RESTARTS, SETTINGS, SEVERITIES, SLOWED, SPEEDS, TIMES, TRIES, TURNS, UNITS, UNWATCHED, VALUES,
+    WHEELS,
 };
 use cotama_models::robots::{MAX_CONFIGURATIONS, MAX_FAILURES, MAX_FLAGS, MAX_PARTS};
 use serde_json::{Value, json};
@@ -70,6 +71,21 @@ fn body() -> Value {
             integer(&POSITIVE, "this energy of motion, in mJ, and more, would hurt somebody"),
         ),
     ];
+    let wheels = [
+        ("radius_um", integer(&WHEELS, "radius of the wheels, in µm; 97500")),
+        ("axle_mm", integer(&AXLES, "distance between the wheels, in mm; 330")),
+        ("turn_mrad_s", integer(&TURNS, "how fast it turns, in thousandths of rad/s; 1745")),
+        (
+            "turn_acceleration_mrad_s2",
+            integer(&TURNS, "how fast it begins and ends to turn, in thousandths of rad/s²; 1745"),
+        ),
+        ("counts", integer(&COUNTS, "counts of an encoder in a turn of its wheel; 76600")),
+        ("left_error_ppm", integer(&ERRORS, "error of the left radius, in millionths; 0")),
+        ("right_error_ppm", integer(&ERRORS, "error of the right radius, in millionths; 0")),
+        ("axle_error_ppm", integer(&ERRORS, "error of the distance, in millionths; 0")),
+    ];
+    let wheels = table(&[], &wheels, "two driven wheels on one axle, for runs in the plane");
+    let can = [&can[..], &[("wheels", wheels)]].concat();
     table(&needs, &can, "how it moves; missions need it")
 }
 

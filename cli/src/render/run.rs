@@ -303,5 +303,8 @@ fn ending(body: &RunBody) -> String {
     if let Some(trace) = &body.trace {
         let _ = writeln!(text, "trace: {NAME}{trace}{NAME:#}");
     }
+    for path in &body.recordings {
+        let _ = writeln!(text, "recording: {NAME}{path}{NAME:#}");
+    }
     text
 }

@@ -41,6 +41,7 @@ pub(crate) fn body(trace: &Trace, run: &Run, mission: &str) -> RunBody {
         supervised: super::supervised::supervised(trace),
         report: None,
         trace: None,
+        recordings: Vec::new(),
     }
 }
 

@@ -3,13 +3,14 @@
 mod compared;
 
 use crate::answers::team::{AwardRow, TeamAnswer, TeamErrorRow, TeamRun};
-use crate::args::{ReplayArgs, RunArgs, STEPS};
+use crate::args::{Fidelity, ReplayArgs, RunArgs, STEPS};
 use crate::exit::{Exit, Failure};
 use crate::file_errors::FileErrors;
 use crate::input;
 use crate::kind::{self, Kind};
 use crate::names::{is_name, near, quoted};
 use crate::output::{self, Screen};
+use crate::recording;
 use crate::render;
 use crate::team::{Chosen, Team};
 use compared::compared;
@@ -154,6 +155,7 @@ pub(crate) fn run(args: &RunArgs, chosen: &Chosen, screen: &Screen) -> Result<Ex
 
 /// Runs the team of a trace again, and compares record by record.
 pub(crate) fn replay(args: &ReplayArgs, text: &str, screen: &Screen) -> Result<Exit, Failure> {
+    recording::no_team(&args.recording)?;
     let given = [("--mission", args.mission.is_some()), ("--seed", args.seed.is_some())];
     if let Some((option, _)) = given.into_iter().find(|it| it.1) {
         let message = format!("{option}: a trace names its team and its seed");
@@ -187,6 +189,7 @@ pub(crate) fn replay_faults(
     text: &str,
     screen: &Screen,
 ) -> Result<Exit, Failure> {
+    recording::no_team(&args.recording)?;
     if args.seed.is_some() {
         let message = "--seed: the runs of a team's campaign have the seed 0";
         return Err(Failure::new(message).help("leave it out"));
@@ -276,6 +279,7 @@ fn next(args: &RunArgs, answer: &TeamAnswer) -> String {
 
 /// Refuses options that only missions have.
 fn for_missions(args: &RunArgs) -> Result<(), Failure> {
+    recording::no_team(&args.recording)?;
     let planning = &args.planning;
     let given = [
         ("--objective", args.objective.is_some()),
@@ -285,6 +289,7 @@ fn for_missions(args: &RunArgs) -> Result<(), Failure> {
         ("--energy-limit", planning.energy_limit.is_some()),
         ("--monitor-period", args.monitor_period.is_some()),
         ("--upward", args.upward),
+        ("--fidelity", args.fidelity != Fidelity::Line),
         ("--steps", planning.steps != STEPS),
     ];
     match given.into_iter().find(|it| it.1) {

@@ -15,7 +15,7 @@ impl Rows {
 
     /// Returns how many are in it.
     pub fn count(&self) -> u32 {
-        self.0.iter().map(|it| it.count_ones()).sum()
+        self.0.iter().fold(0, |all, it| all.saturating_add(it.count_ones()))
     }
 
     /// Whether a failure is in it.

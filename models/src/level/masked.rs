@@ -58,9 +58,10 @@ impl Hidden {
     /// ```
     pub fn diagnose(self, failures: &[Failure], up: u64, raised: u64) -> Rows {
         let mut found = diagnose(failures, up & !self.flags, raised & !self.flags);
-        let is_known = |it: &Failure| self.reports >> (it.report % 64) & 1 == 1;
-        for (row, _) in failures.iter().enumerate().filter(|it| is_known(it.1)) {
-            found.remove(row);
+        for (row, it) in failures.iter().enumerate() {
+            if self.reports >> (it.report % 64) & 1 == 1 {
+                found.remove(row);
+            }
         }
         found
     }

@@ -53,6 +53,16 @@ pub const BODY_SPEEDS: RangeInclusive<i64> = 1..=10_000;
 pub const PERIODS: RangeInclusive<i64> = 10..=1_000;
 /// Radii of bodies in mm.
 pub const RADII: RangeInclusive<i64> = 1..=10_000;
+/// Radii of wheels in µm.
+pub const WHEELS: RangeInclusive<i64> = 1_000..=2_000_000;
+/// Distances between wheels in mm.
+pub const AXLES: RangeInclusive<i64> = 10..=10_000;
+/// Speeds of turning in thousandths of rad/s, and how fast they change.
+pub const TURNS: RangeInclusive<i64> = 1..=20_000;
+/// Counts of an encoder.
+pub const COUNTS: RangeInclusive<i64> = 1..=10_000_000;
+/// Errors of wheels in millionths.
+pub const ERRORS: RangeInclusive<i64> = -100_000..=100_000;
 /// Thousandths of the commanded speed that are left.
 pub const SLOWED: RangeInclusive<i64> = 1..=999;
 /// Effects of failures on motion, with their names.

@@ -149,8 +149,43 @@ pub struct Body {
     /// Mass, in grams, and the energy in mJ below which an impact must stay; `None` where no impact
     /// is limited.
     pub impact: Option<(u64, u64)>,
+    /// Its wheels.
+    pub wheels: Wheels,
     /// Source of what is said of it; may be empty.
     pub source: String,
+}
+
+/// Two driven wheels on one axle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wheels {
+    /// Radius, in µm.
+    pub radius_um: u64,
+    /// Distance between them.
+    pub axle: Millimetres,
+    /// How fast the robot turns, in thousandths of rad/s.
+    pub turn_mrad_s: u64,
+    /// How fast it begins and ends to turn, in thousandths of rad/s².
+    pub turn_acceleration: u64,
+    /// Counts of an encoder in a turn of its wheel.
+    pub counts: u64,
+    /// Errors of the left radius, of the right one and of the distance, in millionths: the robot
+    /// does not know them.
+    pub errors_ppm: [i32; 3],
+}
+
+impl Default for Wheels {
+    /// The wheels of a Pioneer 3-DX, without errors: Webots, `Pioneer3dx.proto`; its counts by its
+    /// operations manual; turning as the emulated firmware of `AMRISim` does.
+    fn default() -> Self {
+        Self {
+            radius_um: 97_500,
+            axle: Millimetres(330),
+            turn_mrad_s: 1_745,
+            turn_acceleration: 1_745,
+            counts: 76_600,
+            errors_ppm: [0; 3],
+        }
+    }
 }
 
 /// The effect of a failure on motion.

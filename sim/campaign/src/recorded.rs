@@ -8,7 +8,7 @@ use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Adapts, Ending, Expected, FaultsFile, PlannedBy};
 use cotama_models::missions::known::OBJECTIVES;
 use cotama_models::toml_text::quoted;
-use cotama_sim::options::{By, Planner, STEPS};
+use cotama_sim::options::{By, Fidelity, Planner, STEPS};
 use cotama_sim::run::Outcome;
 use std::fmt::{self, Write};
 
@@ -40,10 +40,17 @@ pub fn tables(subject: &Subject<'_>, requirement: &Requirement, run: &Observed) 
             let _ = writeln!(text, "steps = {}", steps.min(i64::MAX as u64));
         }
         let _ = writeln!(text, "policy = \"{}\"", subject.policy().name());
+        if subject.policy().fidelity == Fidelity::Plane {
+            text.push_str("fidelity = \"plane\"\n");
+        }
     }
     text.push_str("\n[expected]\n");
     if let Some(source) = subject.source() {
         let _ = writeln!(text, "mission = {}", quoted(source));
+    }
+    let given = |it: &&Mission| Mission::robot_of(it.text()).is_none();
+    if let Some(robot) = subject.mission().filter(given).and_then(|it| it.robot()) {
+        let _ = writeln!(text, "robot = {}", quoted(robot.source()));
     }
     let end = ending(run, requirement);
     let _ = writeln!(
@@ -76,6 +83,7 @@ impl From<&PlannedBy> for Policy {
             planner: Some(Planner::chosen(it.objective, Some(by), it.steps.unwrap_or(STEPS))),
             upward: it.policy == Adapts::Upward,
             rigid: it.policy == Adapts::Rigid,
+            fidelity: if it.in_plane { Fidelity::Plane } else { Fidelity::Line },
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::requirements::Requirements;
 use crate::run::{Line, MAX_FAULTS, MAX_RUNS, MAX_SHARDS, Settings, Shard};
 use crate::space::Rates;
 use crate::strategy::StrategyName;
-use cotama_sim::options::Planner;
+use cotama_sim::options::{Fidelity, Planner};
 use cotama_sim::run::Outcome;
 use cotama_sim::trace::{FloorText, RobotText};
 use serde::{Deserialize, Serialize};
@@ -48,6 +48,9 @@ pub struct Header {
     /// Planner of the runs; as the mission file and the policy say if `None`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub planner: Option<Planner>,
+    /// How closely the robot is modelled.
+    #[serde(default, skip_serializing_if = "Fidelity::is_line")]
+    pub fidelity: Fidelity,
     /// Which part of the runs these are.
     pub shard: Shard,
 }
@@ -76,6 +79,7 @@ impl Header {
             requirements: settings.requirements.clone(),
             policy: policy.into(),
             planner: None,
+            fidelity: Fidelity::Line,
             shard,
         }
     }
@@ -128,6 +132,7 @@ impl Header {
             ("requirements", self.requirements != other.requirements),
             ("policy", self.policy != other.policy),
             ("planner", self.planner != other.planner),
+            ("fidelity", self.fidelity != other.fidelity),
             ("shard", self.shard.of != other.shard.of),
         ];
         differ.into_iter().find(|it| it.1).map(|it| it.0)

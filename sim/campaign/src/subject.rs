@@ -10,8 +10,8 @@ use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Definition, Mission};
 use cotama_models::team::scenario::Scenario;
 use cotama_sim::fleet;
-use cotama_sim::options::{FaultChoice, Options, Planner, upward};
-use cotama_sim::robots::{self, Driven, Monitor, Unmonitored};
+use cotama_sim::options::{FaultChoice, Fidelity, Options, Planner, upward};
+use cotama_sim::robots::{self, Driven, Monitor, Undriven, Unmonitored};
 use cotama_sim::run::NoPlan;
 use cotama_sim::setup::Simulation;
 use std::ops::RangeInclusive;
@@ -73,6 +73,8 @@ pub struct Policy {
     pub upward: bool,
     /// The plan of the start is kept, whatever happens to the margins.
     pub rigid: bool,
+    /// How closely the robot is modelled.
+    pub fidelity: Fidelity,
 }
 
 impl Policy {
@@ -107,6 +109,7 @@ impl Policy {
             planner: Some(self.of(mission)),
             rigid: self.rigid,
             upward: self.upward.then(|| upward(mission.limits)),
+            fidelity: self.fidelity,
             ..Options::default()
         }
     }
@@ -124,6 +127,8 @@ impl<'m> Subject<'m> {
             let driven = Driven::with(mission, &options).map_err(Unready::Undriven)?;
             driven.run(&robots::Script::default()).map_err(no_plan)?;
             Robot::Driven(mission, Box::new(driven), Vec::new())
+        } else if policy.fidelity == Fidelity::Plane {
+            return Err(Unready::Undriven(Undriven::Plain));
         } else {
             let options = policy.options(mission, FaultChoice::None);
             let simulation = Simulation::new(mission, &options).map_err(Unready::Setup)?;

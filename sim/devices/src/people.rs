@@ -5,7 +5,7 @@ use crate::scene::Disc;
 use crate::settings::{SettingsError, within};
 use core::ops::RangeInclusive;
 use cotama_core::units::Millis;
-use cotama_floor::{Path, Point};
+use cotama_floor::{Path, Point, Vector};
 use cotama_streams::{Stream, Streams};
 
 /// The time between two decisions of a person.
@@ -13,6 +13,9 @@ pub const STEP: Millis = Millis(100);
 /// The most decisions of a person that are made at once: those of 29 hours. People of whom nobody
 /// asked for longer go on from where they were.
 const MAX_STEPS: u64 = 1 << 20;
+/// A person who was hindered so often squeezes past the robot, with this room in metres.
+const TRIES: u8 = 3;
+const SQUEEZE: f64 = 0.05;
 /// The most people.
 pub const MAX_PEOPLE: usize = 1_000;
 
@@ -57,7 +60,8 @@ impl Default for Habits {
 /// walks on; now and then a person stops on the way and stands there. Nobody takes a step that ends
 /// closer to a robot than the gap, unless it leads away from it. A person who was hindered for the
 /// patience turns back; one who stood or stayed that long close to a robot goes on, or turns back
-/// if that is where the robot is. People walk through each other.
+/// if that is where the robot is; and one who was hindered three times so squeezes past it, without
+/// a look at walls. People walk through each other.
 ///
 /// Decisions fall every [`STEP`], whenever the people are asked for; in between all move evenly.
 ///
@@ -88,6 +92,8 @@ struct Person {
     doing: Doing,
     /// Since when a robot hinders, or is close.
     hindered: Option<Millis>,
+    /// How often that took too long since no robot was close.
+    tries: u8,
     /// The centre at the last decision, and that at the next one.
     from: Point,
     to: Point,
@@ -138,12 +144,37 @@ impl People {
             let at = routes.places().get(place).copied().unwrap_or_default();
             let until = time(&mut chance, &habits.stays);
             let doing = Doing::Stays { place, until };
-            Person { chance, doing, hindered: None, from: at, to: at }
+            Person { chance, doing, hindered: None, tries: 0, from: at, to: at }
         };
         let all: Vec<_> = (0..count).map(person).collect();
         let disc = |it: &Person| Disc { centre: it.from, radius: habits.radius_m };
         let discs = all.iter().map(disc).collect();
         Ok(Self { habits: habits.clone(), routes, all, discs, decided: None })
+    }
+
+    /// Moves those who overlap a robot beside it: for a robot that is put among people.
+    ///
+    /// ```
+    /// use cotama_devices::{Disc, Habits, People, Routes, Streams};
+    /// use cotama_floor::{Path, Point};
+    /// let hall = [[0.0, 0.0], [20.0, 0.0]].map(Point::from);
+    /// let routes = Routes::by(&hall, |from, to| Path::new(vec![from, to])).unwrap();
+    /// let mut people =
+    ///     People::new(9, &Habits::default(), routes, &Streams::new(7), "people").unwrap();
+    /// let robot = Disc { centre: Point::new(0.1, 0.0), radius: 0.3 };
+    /// people.make_room(&robot);
+    /// assert!(people.now().iter().all(|it| it.gap(&robot) > 0.0));
+    /// ```
+    pub fn make_room(&mut self, robot: &Disc) {
+        for (disc, person) in self.discs.iter_mut().zip(&mut self.all) {
+            person.to = beside(robot, person.to, self.habits.radius_m);
+            (person.from, disc.centre) = (person.to, person.to);
+        }
+    }
+
+    /// Returns the people where they were at the last time that was asked for.
+    pub fn now(&self) -> &[Disc] {
+        &self.discs
     }
 
     /// Returns the people at a time that is not before the last one, among robots that have stood
@@ -241,14 +272,26 @@ impl Person {
         let (along, to) = walk.next(way);
         let hinders = is_hindered(here, to, habits, robots);
         if !self.is_patient(hinders, now, habits) {
-            walk.turn_back(routes);
             self.hindered = None;
+            self.tries = self.tries.saturating_add(1);
+            if self.tries < TRIES && walk.along <= 0.0 {
+                // Back where the walk began, another one is drawn.
+                self.doing = Doing::Stays { place: walk.from, until: now };
+                return;
+            }
+            if self.tries < TRIES {
+                walk.turn_back(routes);
+            }
+        }
+        let squeezes = self.tries >= TRIES;
+        if !hinders && robots.iter().all(|it| it.gap(&here) >= habits.gap_m) {
+            self.tries = 0;
         }
         self.doing = Doing::Walks { walk, stands: None };
-        if hinders {
+        if hinders && !squeezes {
             return;
         }
-        self.to = to;
+        self.to = robots.iter().fold(to, |to, robot| beside(robot, to, habits.radius_m));
         walk.along = along;
         if along >= way.length() {
             let until = after_step(now, time(&mut self.chance, &habits.stays));
@@ -275,6 +318,20 @@ impl Walk {
         let length = routes.way(self.to, self.from).map_or(0.0, Path::length);
         let along = (length - self.along).max(0.0);
         *self = Self { from: self.to, to: self.from, along, speed: self.speed, stop: None };
+    }
+}
+
+/// Returns the point beside a robot that is nearest to one which is too close to it.
+fn beside(robot: &Disc, to: Point, radius_m: f64) -> Point {
+    let (away, least) = (to - robot.centre, robot.radius + radius_m + SQUEEZE);
+    let distance = away.norm();
+    if distance >= least {
+        return to;
+    }
+    if distance > 0.0 {
+        robot.centre + away * (least / distance)
+    } else {
+        robot.centre + Vector::new(least, 0.0)
     }
 }
 

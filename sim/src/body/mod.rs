@@ -1,9 +1,11 @@
-//! The motion of a robot at mission fidelity, whoever drives it.
+//! The motion of a robot, whoever drives it: on a line, or over a floor.
 
 mod drive;
+mod mover;
 
 pub use cotama_models::robots::Motion;
 pub use drive::Drive;
+pub(crate) use mover::{Mover, Moves};
 
 use cotama_core::units::Millis;
 

@@ -1,6 +1,6 @@
 //! The failures of a robot under way: how they change its motion, and when observers see them.
 
-use crate::body::{Drive, FIRMWARE_WATCHDOG, Motion};
+use crate::body::{FIRMWARE_WATCHDOG, Motion, Moves};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::level::{Hidden, Tables};
 use cotama_models::robots::{self, Mode, Parts, Robot, Setting, Where, members};
@@ -26,6 +26,8 @@ pub(crate) struct Failures {
     pub(crate) all: Vec<Failure>,
     /// The period of the control loop.
     pub(crate) period: Millis,
+    /// The losses of parts, for the parts that were asked of last.
+    pub(crate) losses: Option<(Parts, u32)>,
     /// The longest time that one was to be seen, beyond its latency, and was not.
     pub(crate) unseen: Millis,
 }
@@ -143,11 +145,19 @@ impl Failures {
     }
 
     /// Returns the losses of which something is broken, known or not, a bit each.
-    pub(crate) fn broken_losses(&self, robot: &Robot, tables: &Tables<'_>) -> u32 {
+    pub(crate) fn broken_losses(&mut self, robot: &Robot, tables: &Tables<'_>) -> u32 {
         if self.all.iter().all(|it| it.over) {
             return 0;
         }
-        tables.broken(robot.available(self.broken(robot)))
+        let broken = self.broken(robot);
+        match self.losses {
+            Some((of, losses)) if of == broken => losses,
+            _ => {
+                let losses = tables.broken(robot.available(broken));
+                self.losses = Some((broken, losses));
+                losses
+            }
+        }
     }
 
     /// Whether the computer is up.
@@ -162,13 +172,13 @@ impl Failures {
     }
 
     /// Moves for a period, as failures leave it of what is demanded.
-    pub(crate) fn go(&self, robot: &Robot, now: Millis, demand: &Demand, drive: &mut Drive) {
-        let (mut towards, mut end) = (demand.speed, demand.end);
+    pub(crate) fn go(&self, robot: &Robot, now: Millis, demand: &Demand, drive: &mut impl Moves) {
+        let (mut towards, mut is_blocked) = (demand.speed, false);
         for (it, row) in self.open(robot) {
             match row.motion {
                 Motion::Free => {}
                 Motion::Blocked if demand.led => {}
-                Motion::Blocked => end = drive.x(),
+                Motion::Blocked => is_blocked = true,
                 Motion::Slowed(parts) => {
                     towards = towards
                         .min(MillimetresPerSecond(demand.speed.0 * u64::from(parts) / 1_000));
@@ -186,7 +196,11 @@ impl Failures {
                 }
             }
         }
-        drive.go(towards, end, self.period);
+        if is_blocked {
+            drive.stand();
+            towards = MillimetresPerSecond(0);
+        }
+        drive.go(towards, demand.end, self.period);
     }
 
     /// Observers look for a period; returns the failures that are seen from now on.

@@ -1,7 +1,7 @@
 //! Events of a mission's script beside failures: obstacles, positions that were wrong, and power
 //! that differs from the model.
 
-use crate::body::Drive;
+use crate::body::Mover;
 use cotama_core::units::{Millimetres, Millis, Milliwatts};
 use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Event, EventKind, PowerError};
@@ -14,19 +14,18 @@ pub(super) struct Hindered {
     power_errors: Vec<PowerError>,
     /// Until when something stands in the way.
     until: Option<Millis>,
-    /// The way to drive before it gets on along its path.
-    owed: Millimetres,
 }
 
 impl Hindered {
     pub(super) fn new(events: &[Event], power_errors: &[PowerError]) -> Self {
         let waiting = events.iter().copied().collect();
         let power_errors = power_errors.to_vec();
-        Self { waiting, power_errors, until: None, owed: Millimetres(0) }
+        Self { waiting, power_errors, until: None }
     }
 
     /// The events at places that are reached happen; returns those of this period.
-    pub(super) fn happen(&mut self, now: Millis, x: Millimetres) -> Vec<Event> {
+    pub(super) fn happen(&mut self, now: Millis, mover: &mut Mover<'_>) -> Vec<Event> {
+        let x = mover.x();
         let mut happened = Vec::new();
         while let Some(event) = self.waiting.front().copied().filter(|it| it.x <= x) {
             self.waiting.pop_front();
@@ -35,7 +34,7 @@ impl Hindered {
                     let from = self.until.map_or(now, |it| it.max(now));
                     self.until = Some(Millis(from.0 + delay.0));
                 }
-                EventKind::Odometry { extra } => self.owed.0 += extra.0,
+                EventKind::Odometry { extra } => mover.owe(extra),
                 // Faults of hardware are failures of the robot's file.
                 EventKind::Fault { .. } | EventKind::Repair { .. } => continue,
             }
@@ -50,18 +49,6 @@ impl Hindered {
     /// Whether something stands in the way.
     pub(super) const fn waits(&self) -> bool {
         self.until.is_some()
-    }
-
-    /// Returns the way that is left beside the path.
-    pub(super) const fn owed(&self) -> Millimetres {
-        self.owed
-    }
-
-    /// Takes of a way what is owed, so that the robot is as far along its path as it was.
-    pub(super) fn take(&mut self, drive: &mut Drive, from: Millimetres) {
-        let way = drive.x().0.saturating_sub(from.0).min(self.owed.0);
-        drive.set_back(Millimetres(way));
-        self.owed.0 -= way;
     }
 
     /// Returns the real power for a modelled one.

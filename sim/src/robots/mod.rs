@@ -1,5 +1,5 @@
 //! Missions under the supervisors that a robot's file makes: travel, energy, failures, observers
-//! with their latencies, an operator; no rays.
+//! with their latencies, an operator.
 //!
 //! The supervisors are the nets that the checker explores
 //! ([`system`](cotama_models::robots::supervisors::system)), one round a period, told one thing a
@@ -25,7 +25,7 @@ mod summary;
 mod twin;
 mod world;
 
-use crate::options::{Options, Planner};
+use crate::options::{Fidelity, Options, Planner};
 use crate::plan::{Plannable, Planning, Progress};
 use crate::record::{Recorder, Silent};
 use crate::run::{NoPlan, Outcome, PlanMade};
@@ -39,6 +39,7 @@ use cotama_models::robots::supervisors::{self, OwnedSystem};
 use cotama_models::robots::{
     Answer, Decision, Incident, IncidentKind, Moment, OwnedTables, RobotFile, Told, Where,
 };
+use cotama_plane::{Course, NoCourse};
 use monitor::Watching;
 pub use monitor::{Monitor, Unmonitored, Violation};
 use std::collections::{BTreeSet, VecDeque};
@@ -196,6 +197,8 @@ pub struct Run {
     pub ended_by: Option<usize>,
     /// The transitions that fired, as `ls.ask_Follow`, each once.
     pub fired: BTreeSet<String>,
+    /// Where it ran against something, in the plane, which ended it.
+    pub touched: Option<Millimetres>,
     /// The property that it broke, which ended it.
     pub violated: Option<Violation>,
 }
@@ -232,6 +235,10 @@ pub struct Driven<'m> {
     packed: Memory,
     tables: OwnedTables,
     plannable: Plannable<'m>,
+    /// The floor that it goes over, for runs in the plane.
+    course: Option<Box<Course>>,
+    /// The seed of the people there.
+    seed: u64,
     monitors: Vec<Monitor>,
     /// For how long the robot is watched when it is safe.
     after: Millis,
@@ -251,7 +258,7 @@ const LARGE: usize = 64;
 pub(crate) const SLOTS: usize = 256;
 
 /// Why a mission is not driven by the supervisors of a robot's file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Undriven {
     /// The mission names no robot.
     Plain,
@@ -259,6 +266,8 @@ pub enum Undriven {
     TooLarge(SystemError),
     /// The limits cannot be watched.
     Unwatchable(MonitorError),
+    /// The robot cannot drive over the floor.
+    NoCourse(NoCourse),
 }
 
 impl std::fmt::Display for Undriven {
@@ -266,6 +275,7 @@ impl std::fmt::Display for Undriven {
         match self {
             Self::Plain => f.write_str("the mission names no robot that has a file"),
             Self::TooLarge(why) => write!(f, "the robot's supervisors cannot be played: {why}"),
+            Self::NoCourse(why) => write!(f, "the robot cannot drive in the plane: {why}"),
             Self::Unwatchable(why) => write!(f, "the limits cannot be watched: {why}"),
         }
     }
@@ -300,8 +310,24 @@ impl<'m> Driven<'m> {
         let packed = packed.map_err(Undriven::TooLarge)?;
         let tables = OwnedTables::of(robot, &mission.steps(), &system);
         let plannable = Plannable::new(mission, options).map_err(Undriven::Unwatchable)?;
+        let course = match options.fidelity {
+            Fidelity::Line => None,
+            Fidelity::Plane => {
+                Some(Box::new(Course::of(mission, options.people).map_err(Undriven::NoCourse)?))
+            }
+        };
         let (monitors, after) = (Vec::new(), Millis(0));
-        Ok(Self { mission, system, packed, tables, plannable, monitors, after })
+        Ok(Self {
+            mission,
+            system,
+            packed,
+            tables,
+            plannable,
+            course,
+            seed: options.seed,
+            monitors,
+            after,
+        })
     }
 
     /// A property of its supervisors, to be watched: see [`Monitor`].
@@ -322,6 +348,11 @@ impl<'m> Driven<'m> {
     #[must_use]
     pub fn watched_for(self, after: Millis) -> Self {
         Self { after, ..self }
+    }
+
+    /// Returns the floor that it goes over, of runs in the plane.
+    pub fn course(&self) -> Option<&Course> {
+        self.course.as_deref()
     }
 
     /// Returns the planner.
@@ -364,9 +395,9 @@ impl<'m> Driven<'m> {
         let (start, available) = (Progress::start(Millimetres(0)), self.mission.available());
         let planning = Planning::start(&self.plannable, &start, available)?;
         let watching = Watching::new(&self.monitors);
-        let tables = self.tables.view();
-        let world =
-            World::start(self.mission, &tables, program, planning, script, period, watching);
+        let (tables, course) =
+            (self.tables.view(), self.course.as_deref().map(|it| (it, self.seed)));
+        let world = World::start(&tables, program, planning, script, course, period, watching);
         let Some(mut world) = world else {
             return Err(NoPlan::Infeasible); // a mission that is driven has a robot with a body
         };

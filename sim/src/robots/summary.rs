@@ -33,6 +33,7 @@ impl Run {
         let exceeded = (0..2).find(|&axis| self.used[axis] > limits[axis]);
         match self.outcome {
             Outcome::Completed => None,
+            Outcome::Failed if self.touched.is_some() => Some(Reason::Touched),
             Outcome::Failed if self.time >= LONGEST => Some(Reason::TooLong),
             Outcome::Failed => exceeded
                 .map(|axis| Reason::LimitExceeded { axis, by: self.used[axis] - limits[axis] }),

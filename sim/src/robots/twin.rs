@@ -20,8 +20,7 @@ fn driven<P: Program<W, 0, SLOTS> + Copy, const W: usize>(
     let start = Progress::start(Millimetres(0));
     let planning = Planning::start(&it.plannable, &start, it.mission.available()).unwrap();
     let watching = super::Watching::new(&it.monitors);
-    let world =
-        World::start(it.mission, tables, program, planning, script, Millis(1_000), watching);
+    let world = World::start(tables, program, planning, script, None, Millis(1_000), watching);
     let mut world = world.unwrap();
     let mut twin = Decider::new(Level::start(tables, program));
     let (mut compared, mut up) = (0, 0);

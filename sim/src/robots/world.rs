@@ -9,7 +9,7 @@ use super::hindered::Hindered;
 use super::monitor::Watching;
 use super::operator::Operator;
 use super::{Conduct, Injection, Run, Script};
-use crate::body::Drive;
+use crate::body::{Drive, Mover};
 use crate::plan::{Planning, Progress};
 use crate::record::{Recorder, Silent};
 use crate::run::{LONGEST, Outcome};
@@ -19,6 +19,7 @@ use cotama_models::level::{Cause, Decider, Level, Tables};
 use cotama_models::missions::Mission;
 use cotama_models::missions::tables::Rest;
 use cotama_models::robots::{Body, Global, Moment, Parts, Robot, Where};
+use cotama_plane::Course;
 use records::Recording;
 use std::collections::BTreeSet;
 
@@ -36,7 +37,7 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     pub(super) decider: Decider<'m, P, W, 0, S>,
     pub(super) planning: Planning<'m>,
     pub(super) now: Millis,
-    pub(super) drive: Drive,
+    pub(super) drive: Mover<'m>,
     energy_uj: u64,
     waiting: Vec<Injection>,
     until: Vec<Option<Moment>>,
@@ -107,14 +108,15 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
     /// A robot at the start of its mission, with its plan; `None` where the mission has no robot
     /// with a body.
     pub(super) fn start(
-        mission: &'m Mission,
         tables: &'m Tables<'m>,
         program: P,
         planning: Planning<'m>,
         script: &Script,
+        course: Option<(&'m Course, u64)>,
         period: Millis,
         watching: Watching<'m>,
     ) -> Option<Self> {
+        let mission = planning.mission();
         let robot = mission.robot()?.robot();
         let body = robot.body.as_ref()?;
         let run = Run {
@@ -135,6 +137,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             planned_with_lost: false,
             ended_by: None,
             fired: BTreeSet::new(),
+            touched: None,
             violated: None,
         };
         Some(Self {
@@ -144,7 +147,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             decider: Decider::new(Level::start(tables, program)),
             planning,
             now: Millis(0),
-            drive: Drive::new(body.acceleration.max(1)),
+            drive: Mover::new(body.acceleration, course),
             energy_uj: 0,
             waiting: script.injections.clone(),
             until: Vec::new(),
@@ -211,12 +214,14 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
     }
 
     fn step<R: Recorder>(&mut self, recording: &mut Recording<'_, R>) {
-        let before = self.drive;
+        let before = self.drive.line().copied();
         self.calm = true;
         self.fail(recording);
-        let happened = self.hindered.happen(self.now, self.drive.x());
+        let happened = self.hindered.happen(self.now, &mut self.drive);
         self.travel();
-        self.calm &= self.drive.is_steady_since(&before, self.body.period);
+        let is_even =
+            |(now, before): (&Drive, Drive)| now.is_steady_since(&before, self.body.period);
+        self.calm &= self.drive.line().zip(before).is_some_and(is_even);
         if self.failures.thinks(self.robot) {
             self.observe(recording);
             self.see(self.now);
@@ -235,14 +240,14 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
 
     /// How the mission ends, if it does.
     fn end(&self) -> Option<Outcome> {
-        if self.run.violated.is_some() {
+        if self.run.violated.is_some() || self.run.touched.is_some() {
             return Some(Outcome::Failed);
         }
-        let stands = self.drive.speed().0 == 0;
+        let stands = self.drive.stands();
         let left_alone = !self.failures.thinks(self.robot)
             && stands
             && (!self.level().permits() || self.failures.is_abandoned(self.robot, self.now));
-        match self.level().global() {
+        match self.global {
             Global::Safe if stands => Some(self.within(Outcome::Safe)),
             _ if left_alone => Some(self.within(Outcome::Safe)),
             Global::Done => Some(self.within(Outcome::Completed)),
@@ -334,7 +339,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
 
     /// Whether a drive is under way.
     pub(super) fn drives(&self) -> bool {
-        matches!(self.level().global(), Global::Does(_)) && !self.objective_stands()
+        matches!(self.global, Global::Does(_)) && !self.objective_stands()
     }
 
     /// The configuration that runs.
@@ -348,7 +353,10 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
     /// The activity under way.
     pub(super) fn activity(&self) -> usize {
         let last = self.mission.scenario().activities.len().saturating_sub(1);
-        self.progress().first.min(last)
+        if self.objective >= self.mission.objectives.len() {
+            return last;
+        }
+        self.planning.activity(self.objective, self.drive.x().0).min(last)
     }
 
     /// How far the mission has come.
@@ -361,7 +369,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let first = self.planning.activity(self.objective, x.0);
         if objective.travels() {
             let end = self.mission.scenario().activities.get(first).map_or(0, |it| it.x_end.0);
-            let left = Millimetres((end.saturating_sub(x.0) + self.hindered.owed().0).max(1));
+            let left = Millimetres((end.saturating_sub(x.0) + self.drive.owed().0).max(1));
             let beside = self.planning.slower(first, left, |it| self.lasting_speed(it));
             Progress { first, rest: Some(Rest::Travel(left)), beside, ..at }
         } else {

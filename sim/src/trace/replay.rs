@@ -5,7 +5,7 @@ use super::{
     Trace,
 };
 use crate::faults_text::faults_text;
-use crate::options::{FaultChoice, Options, Planner};
+use crate::options::{FaultChoice, Fidelity, Options, Planner};
 use crate::robots::{self, Driven, Undriven};
 use crate::run::{NoPlan, Run};
 use crate::setup::{SetupError, Simulation};
@@ -75,7 +75,7 @@ pub struct Replayed {
 
 impl Trace {
     /// Runs a mission and records everything: under the supervisors of its robot, if it names one;
-    /// the seed changes nothing there.
+    /// the seed draws people alone there.
     ///
     /// # Errors
     /// A [`RecordError`] for options that do not fit the mission, or no plan at the start.
@@ -93,8 +93,13 @@ impl Trace {
     pub fn record(mission: &Mission, options: &Options) -> Result<(Self, Run), RecordError> {
         let period = options.monitor_period.unwrap_or(mission.run.monitor_period);
         let mut records = Vec::new();
+        let mut floor = mission.way.as_ref().map(FloorText::of);
         let run = if mission.robot().is_some() {
-            driven(mission, options, period, &mut records)
+            let ready = Driven::with(mission, options).map_err(RecordError::Undriven)?;
+            floor = floor.or_else(|| ready.course().map(|it| FloorText::of(it.way())));
+            driven(&ready, mission, options, period, &mut records)
+        } else if options.fidelity != Fidelity::Line {
+            return Err(RecordError::Undriven(Undriven::Plain));
         } else {
             let simulation = Simulation::new(mission, options).map_err(RecordError::Setup)?;
             simulation
@@ -118,7 +123,7 @@ impl Trace {
             mission_source: mission.source().into(),
             mission: mission.text().into(),
             robot: mission.robot().map(RobotText::of),
-            floor: mission.way.as_ref().map(FloorText::of),
+            floor,
             options: RunOptions {
                 seed: options.seed,
                 faults,
@@ -126,6 +131,8 @@ impl Trace {
                 allocator: options.planner.unwrap_or_else(|| Planner::of(mission)),
                 rigid: options.rigid,
                 upward,
+                fidelity: options.fidelity,
+                people: options.people,
             },
             limits: mission.limits.into(),
             path_length_mm: mission.path_length.0,
@@ -165,6 +172,8 @@ impl Trace {
             planner: Some(recorded.allocator),
             rigid: recorded.rigid,
             upward,
+            fidelity: recorded.fidelity,
+            people: recorded.people,
         })
     }
 }
@@ -187,12 +196,12 @@ fn infeasible(mission: &Mission, reason: NoPlan) -> RecordError {
 
 /// Runs a mission under the supervisors of a robot's file.
 fn driven(
+    ready: &Driven<'_>,
     mission: &Mission,
     options: &Options,
     period: Millis,
     records: &mut Vec<Record>,
 ) -> Result<Run, RecordError> {
-    let ready = Driven::with(mission, options).map_err(RecordError::Undriven)?;
     if period.0 == 0 {
         return Err(RecordError::Setup(SetupError::ZeroPeriod));
     }

@@ -5,7 +5,7 @@ use cotama_core::units::{Millimetres, Millis};
 
 mod recorded;
 
-pub use recorded::{Adapts, Ending, Expected, FaultsFile, OUTCOMES, PlannedBy};
+pub use recorded::{Adapts, Ending, Expected, FIDELITIES, FaultsFile, OUTCOMES, PlannedBy};
 
 /// The format that a file of faults must name.
 pub const FORMAT: &str = "panorama-faults/1";

@@ -47,7 +47,12 @@ pub struct PlannedBy {
     pub steps: Option<u64>,
     /// How plans are adapted.
     pub policy: Adapts,
+    /// Whether the robot drove in the plane, else on a line.
+    pub in_plane: bool,
 }
+
+/// Names of how closely a robot is modelled: on a line, in the plane.
+pub const FIDELITIES: [&str; 2] = ["line", "plane"];
 
 /// How plans are adapted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -72,6 +77,9 @@ impl Adapts {
 pub struct Expected {
     /// The mission: the name of an embedded one, or the path of a file.
     pub mission: Option<String>,
+    /// The robot under whose supervisors a mission is that names none: its name, or the path of its
+    /// file.
+    pub robot: Option<String>,
     /// The seed of the run.
     pub seed: u64,
     /// The requirement that broke.

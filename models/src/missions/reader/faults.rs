@@ -45,9 +45,17 @@ impl Faults {
 impl FaultsFile {
     /// The mission that a file names, without which nothing else of it can be read.
     pub fn mission_of(text: &str) -> Option<String> {
+        Self::named(text, "mission")
+    }
+
+    /// The robot that a file names for a mission that names none.
+    pub fn robot_of(text: &str) -> Option<String> {
+        Self::named(text, "robot")
+    }
+
+    fn named(text: &str, key: &str) -> Option<String> {
         let file: toml::Table = text.parse().ok()?;
-        let name = file.get("expected")?.get("mission")?.as_str()?;
-        Some(name.to_owned())
+        Some(file.get("expected")?.get(key)?.as_str()?.to_owned())
     }
 
     /// Reads a file of faults for a mission, with all that it says.

@@ -1,7 +1,7 @@
 //! Reading what a campaign noted beside the faults of a failure.
 
 use super::fields::Fields;
-use crate::missions::faults::{Adapts, Ending, Expected, OUTCOMES, PlannedBy};
+use crate::missions::faults::{Adapts, Ending, Expected, FIDELITIES, OUTCOMES, PlannedBy};
 use crate::missions::known::{ALLOCATORS, COUNTS, OBJECTIVES, SEARCHES};
 
 /// `[planner]`.
@@ -14,16 +14,23 @@ pub(super) fn planner(mut fields: Fields<'_>) -> Option<PlannedBy> {
     } else {
         Some(Adapts::NAMES[0].0)
     };
+    let fidelity = if fields.has("fidelity") {
+        fields.choice("fidelity", "fidelity", &FIDELITIES)
+    } else {
+        Some(FIDELITIES[0])
+    };
     fields.finish();
     let objective = OBJECTIVES.iter().find(|it| Some(it.0) == objective)?.1;
     let policy = Adapts::NAMES.iter().find(|it| Some(it.0) == policy)?.1;
+    let in_plane = fidelity? == FIDELITIES[1];
     let exact = by? == ALLOCATORS[1];
-    Some(PlannedBy { objective, exact, steps: steps.ok()?, policy })
+    Some(PlannedBy { objective, exact, steps: steps.ok()?, policy, in_plane })
 }
 
 /// `[expected]`.
 pub(crate) fn expected(mut fields: Fields<'_>) -> Option<Expected> {
     let mission = fields.optional_text("mission");
+    let robot = fields.optional_text("robot");
     let seed = fields.optional_integer("seed", COUNTS);
     let requirement = fields.text("requirement");
     let outcome = fields.choice("outcome", "outcome", &OUTCOMES);
@@ -45,6 +52,7 @@ pub(crate) fn expected(mut fields: Fields<'_>) -> Option<Expected> {
     };
     Some(Expected {
         mission: mission.ok()?.map(|it| it.value),
+        robot: robot.ok()?.map(|it| it.value),
         seed: seed.ok()?.unwrap_or(0),
         requirement: requirement?.value,
         end,

@@ -2,8 +2,11 @@
 
 use crate::missions::reader::fields::Fields;
 use crate::missions::{Diagnostic, MotionPower, harmless_speed};
-use crate::robots::known::{BODY_SPEEDS, COEFFICIENTS, MOTIONS, PERIODS, POSITIVE, RADII, SLOWED};
-use crate::robots::{Body, Motion};
+use crate::robots::known::{
+    AXLES, BODY_SPEEDS, COEFFICIENTS, COUNTS, ERRORS, MOTIONS, PERIODS, POSITIVE, RADII, SLOWED,
+    TURNS, WHEELS,
+};
+use crate::robots::{Body, Motion, Wheels};
 use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis};
 
 /// The period of a control loop where nothing is said (stated of the delivery: below 0.1 s).
@@ -24,6 +27,10 @@ pub(super) fn body(mut fields: Fields<'_>) -> Option<Body> {
         it.finish();
         Some(MotionPower { c0: c0?, c1: c1?, c2: c2? })
     });
+    let wheels = match fields.optional_table("wheels") {
+        Ok(it) => it.map_or(Some(Wheels::default()), wheels),
+        Err(_) => None,
+    };
     let mass = fields.optional_integer::<u64>("mass_g", POSITIVE);
     let energy = fields.optional_integer::<u64>("impact_energy_max_mj", POSITIVE);
     let source = super::words(&mut fields, "source");
@@ -51,7 +58,31 @@ pub(super) fn body(mut fields: Fields<'_>) -> Option<Body> {
         period: period.ok()?.map_or(PERIOD, Millis),
         motion_power: motion_power?,
         impact,
+        wheels: wheels?,
         source,
+    })
+}
+
+/// Reads the wheels; what is not said is that of a Pioneer 3-DX.
+fn wheels(mut fields: Fields<'_>) -> Option<Wheels> {
+    let known = Wheels::default();
+    let radius = fields.optional_integer("radius_um", WHEELS);
+    let axle = fields.optional_integer("axle_mm", AXLES);
+    let turn = fields.optional_integer("turn_mrad_s", TURNS);
+    let turn_acceleration = fields.optional_integer("turn_acceleration_mrad_s2", TURNS);
+    let counts = fields.optional_integer("counts", COUNTS);
+    let errors = ["left_error_ppm", "right_error_ppm", "axle_error_ppm"]
+        .map(|key| fields.optional_integer::<i32>(key, ERRORS));
+    fields.finish();
+    let [left, right, between] = errors;
+    let error = |it: Option<i32>| it.unwrap_or(0);
+    Some(Wheels {
+        radius_um: radius.ok()?.unwrap_or(known.radius_um),
+        axle: axle.ok()?.map_or(known.axle, Millimetres),
+        turn_mrad_s: turn.ok()?.unwrap_or(known.turn_mrad_s),
+        turn_acceleration: turn_acceleration.ok()?.unwrap_or(known.turn_acceleration),
+        counts: counts.ok()?.unwrap_or(known.counts),
+        errors_ppm: [error(left.ok()?), error(right.ok()?), error(between.ok()?)],
     })
 }
 

@@ -9,7 +9,7 @@ use cotama_campaign::run::{Campaign, Settings};
 use cotama_campaign::subject::{Policy, Subject};
 use cotama_models::missions::Mission;
 use cotama_models::missions::faults::FaultsFile;
-use cotama_sim::options::{Aim, FaultChoice, Options, Planner};
+use cotama_sim::options::{Aim, FaultChoice, Fidelity, Options, Planner};
 use cotama_sim::setup::Simulation;
 use cotama_sim::streams::{Stream, Streams};
 use cotama_sim::trace::Trace;
@@ -133,6 +133,7 @@ fn policies() -> Vec<Policy> {
             planner,
             upward,
             rigid,
+            fidelity: Fidelity::Line,
         })
     });
     all.collect()

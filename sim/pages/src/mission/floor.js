@@ -4,6 +4,7 @@
   "use strict";
   var section = document.querySelector(".onfloor");
   var robot = section.querySelector(".robot");
+  var people = section.querySelectorAll("circle.person");
   var slider = section.querySelector("input");
   var button = section.querySelector("button");
   var output = section.querySelector("output");
@@ -22,6 +23,13 @@
     var share = span > 0 ? Math.min(Math.max((key - from[0]) / span, 0), 1) : 0;
     return from[column] + (to[column] - from[column]) * share;
   }
+  // Between two headings the shorter way round.
+  function heading(time) {
+    var at = before(RUN.poses, time), from = RUN.poses[at];
+    var to = RUN.poses[Math.min(at + 1, RUN.poses.length - 1)], span = to[0] - from[0];
+    var turn = ((to[3] - from[3]) % 360 + 540) % 360 - 180;
+    return from[3] + (span > 0 ? turn * Math.min(Math.max((time - from[0]) / span, 0), 1) : 0);
+  }
   function show() {
     var time = Number(slider.value);
     if (!RUN.samples.length || !RUN.way.length) { return; }
@@ -30,8 +38,17 @@
     var from = RUN.way[Math.min(at, RUN.way.length - 2)] || RUN.way[0];
     var to = RUN.way[Math.min(at + 1, RUN.way.length - 1)];
     var turn = Math.atan2(to[2] - from[2], to[1] - from[1]) * 180 / Math.PI;
-    robot.setAttribute("transform", "translate(" + between(RUN.way, along, 1) + " " +
-      between(RUN.way, along, 2) + ") rotate(" + turn + ")");
+    var at_x = between(RUN.way, along, 1), at_y = between(RUN.way, along, 2);
+    if (RUN.poses.length) {
+      at_x = between(RUN.poses, time, 1);
+      at_y = between(RUN.poses, time, 2);
+      turn = heading(time);
+    }
+    Array.prototype.forEach.call(people, function (person, number) {
+      person.setAttribute("cx", between(RUN.poses, time, 4 + 2 * number));
+      person.setAttribute("cy", between(RUN.poses, time, 5 + 2 * number));
+    });
+    robot.setAttribute("transform", "translate(" + at_x + " " + at_y + ") rotate(" + turn + ")");
     var sample = RUN.samples[before(RUN.samples, time)];
     var runs = RUN.runs.length && RUN.runs[0][0] <= time ? RUN.runs[before(RUN.runs, time)][1] : "";
     output.textContent = (time / 1000).toFixed(1) + " s, " + (along / 1000).toFixed(1) + " m, " +

@@ -6,7 +6,8 @@ use super::view::View;
 use crate::format::{metres as in_metres, moment};
 use crate::svg::fixed;
 use cotama_core::text::markup;
-use cotama_floor::{Floor, Path, metres, picture};
+use cotama_floor::picture::{self, Pixels};
+use cotama_floor::{Floor, Path, metres};
 use cotama_models::missions::Way;
 use cotama_sim::trace::Record;
 use std::fmt::Write;
@@ -14,11 +15,12 @@ use std::fmt::Write;
 /// The most moments at which the robot is placed; between two of them it moves evenly.
 const MOST: usize = 4_000;
 
+/// The radius of a person, in metres.
+const PERSON_M: f64 = 0.25;
+
 /// The section; nothing for a mission on a line, or on a map whose picture the trace does not hold.
 pub(super) fn section(view: &View<'_>) -> String {
-    let Some(way) = view.mission.as_ref().ok().and_then(|it| it.way.as_ref()) else {
-        return String::new();
-    };
+    let Some(way) = view.way.as_ref() else { return String::new() };
     let Ok(floor) = Floor::parse(&way.source, &way.text) else { return String::new() };
     let path = Path::new(way.points().iter().map(|it| metres(*it)).collect());
     let corners = corners(way);
@@ -34,8 +36,9 @@ pub(super) fn section(view: &View<'_>) -> String {
                 format!("[{},{x},{y}]", it.along_mm)
             })
             .collect();
-        data = format!("\"way\":[{}],{}", all.join(","), moments(view));
-        let mut over = String::from("<g class=\"points\">");
+        let (poses, tracks) = poses(view, pixels);
+        data = format!("\"way\":[{}],\"poses\":[{poses}],{}", all.join(","), moments(view));
+        let mut over = format!("{tracks}<g class=\"points\">");
         for point in view.points.iter().take(MAX_POINTS) {
             let number = point.number;
             let [x, y] = place(&corners, point.x_mm, |it| pixels.at(metres(it)));
@@ -111,6 +114,48 @@ fn place(corners: &[Corner], x_mm: u64, at: impl Fn([i32; 2]) -> [f64; 2]) -> [f
     let share = (x_mm.saturating_sub(from.along_mm) as f64 / span).clamp(0.0, 1.0);
     let (from, to) = (at(from.at), at(to.at));
     [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * share)
+}
+
+/// Poses of the robot over time as JSON, each with a turn in degrees clockwise and the places of
+/// the people; with the people, and where it was and
+/// believed to be by its encoders as lines; empty for a run on a line.
+fn poses(view: &View<'_>, pixels: &Pixels) -> (String, String) {
+    let poses = view.trace.records.iter().filter_map(|it| match it {
+        Record::Pose(it) => Some(it),
+        _ => None,
+    });
+    let poses: Vec<_> = poses.collect();
+    let every = poses.len().div_ceil(MOST).max(1);
+    let last = poses.len().saturating_sub(1);
+    let poses = poses.iter().enumerate().filter(|it| it.0 % every == 0 || it.0 == last);
+    let (mut json, mut lines, mut count) = (Vec::new(), [Vec::new(), Vec::new()], 0);
+    for (_, it) in poses {
+        let [at, told] = [it.at_mm, it.odometry_mm].map(|it| pixels.at(metres(it)).map(fixed));
+        let turn = f64::from(-it.heading_mrad) * 0.18 / core::f64::consts::PI;
+        let [x, y] = &at;
+        let people = it.people_mm.iter().flat_map(|it| pixels.at(metres(*it)).map(fixed));
+        let row = [(it.t_us / 1_000).to_string(), x.clone(), y.clone(), fixed(turn)];
+        let row: Vec<_> = row.into_iter().chain(people).collect();
+        json.push(format!("[{}]", row.join(",")));
+        count = count.max(it.people_mm.len());
+        let [driven, believed] = &mut lines;
+        driven.push(at.join(","));
+        believed.push(told.join(","));
+    }
+    if json.is_empty() {
+        return (String::new(), String::new());
+    }
+    let [driven, believed] = lines.map(|it| it.join(" "));
+    let lines = format!(
+        "<polyline class=\"believed\" points=\"{believed}\"><title>where the encoders say it \
+         is</title></polyline><polyline class=\"driven\" points=\"{driven}\"><title>where it \
+         drove</title></polyline>"
+    );
+    let radius = fixed(PERSON_M * pixels.scale);
+    let person =
+        format!("<circle class=\"person\" r=\"{radius}\"><title>a person</title></circle>");
+    let lines = lines + &person.repeat(count);
+    (json.join(","), lines)
 }
 
 /// Places of the robot over time, and the configurations that run: as JSON.

@@ -2,7 +2,7 @@
 //! choice.
 
 use cotama_models::missions::faults::{Faults, PowerError};
-use cotama_models::missions::{Mission, Zone};
+use cotama_models::missions::{Mission, Way, Zone};
 use cotama_sim::story::{Point, points};
 use cotama_sim::trace::{Abort, End, Event, Plan, Record, Request, RunFaults, Sample, Trace};
 use std::collections::HashMap;
@@ -12,6 +12,8 @@ pub(super) struct View<'t> {
     pub(super) trace: &'t Trace,
     /// The mission, or why it cannot be read.
     pub(super) mission: Result<Mission, String>,
+    /// The way over the floor; none of a run on a line without one.
+    pub(super) way: Option<Way>,
     pub(super) activities: Vec<Step>,
     pub(super) stops: Vec<Stop>,
     pub(super) stretches: Vec<Stretch>,
@@ -75,8 +77,11 @@ impl<'t> View<'t> {
                 .unwrap_or("the mission text cannot be read")
                 .to_owned()
         });
+        let given = mission.as_ref().ok().and_then(|it| it.way.clone());
+        let drawn = || header.floor.as_ref().map(|it| it.way(&header.mission));
         let mut view = Self {
             trace,
+            way: given.or_else(drawn),
             mission,
             activities: Vec::new(),
             stops: Vec::new(),
@@ -134,7 +139,7 @@ impl<'t> View<'t> {
 
     /// Whether the mission goes over a floor.
     pub(super) fn is_on_floor(&self) -> bool {
-        self.mission.as_ref().is_ok_and(|it| it.way.is_some())
+        self.way.is_some()
     }
 
     /// Returns place and time of the run's end.

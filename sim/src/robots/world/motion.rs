@@ -1,6 +1,7 @@
 //! How a robot moves in a period, what it draws, and what of it must never happen.
 
 use super::World;
+use crate::body::Moves;
 use crate::robots::failing::{Demand, mode};
 use cotama_core::player::Program;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Milliwatts};
@@ -16,11 +17,13 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             self.drive.stand();
         }
         self.failures.go(self.robot, self.now, &demand, &mut self.drive);
-        let moved = self.drive.x() > before;
-        self.hindered.take(&mut self.drive, before);
+        let moved = self.drive.moved();
+        if self.drive.touches() && self.run.touched.is_none() {
+            self.run.touched = Some(self.drive.x());
+        }
         let power = self.hindered.real(self.mission, before, self.power(moved));
         self.energy_uj = self.energy_uj.saturating_add(power.0.saturating_mul(self.body.period.0));
-        self.run.moved_when_safe |= moved && self.level().global() == Global::Safe;
+        self.run.moved_when_safe |= moved && self.global == Global::Safe;
         self.measure(before, permitted);
     }
 
@@ -31,7 +34,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             speed: if goes { self.pace().0 } else { MillimetresPerSecond(0) },
             most: self.body.speed_max,
             halt: self.level().is_halted(),
-            end: Millimetres(self.goal().0 + self.hindered.owed().0),
+            end: self.goal(),
             led: mode(self.robot, self.place) == Some(Mode::Operator),
         }
     }
@@ -56,7 +59,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         if self.permitted && !permitted {
             self.withdrawn = Some(before);
         }
-        if (permitted || self.drive.speed().0 == 0)
+        if (permitted || self.drive.stands())
             && let Some(from) = self.withdrawn.take()
         {
             let way = Millimetres(self.drive.x().0.saturating_sub(from.0));
@@ -86,10 +89,10 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// Returns the power of the robot: that of its pace while it moves, or that of its task where
     /// it stands for one; else that of rest.
     pub(super) fn power(&self, moved: bool) -> Milliwatts {
-        if matches!(self.level().global(), Global::Does(_)) && self.objective_stands() {
+        if matches!(self.global, Global::Does(_)) && self.objective_stands() {
             return self.planning.pace(self.activity(), None).1;
         }
-        if moved || self.drive.speed().0 > 0 {
+        if moved || !self.drive.stands() {
             return self.pace().1;
         }
         self.planning.rest_power(self.activity(), self.configuration())

@@ -1,6 +1,7 @@
 //! Passing over periods in which nothing happens.
 
 use super::World;
+use crate::body::Drive;
 use crate::robots::failing::{mode, moves};
 use crate::run::LONGEST;
 use cotama_core::player::Program;
@@ -11,13 +12,14 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// Passes over periods in which nothing happens, up to the next second, in which margins are
     /// looked at.
     pub(super) fn pass_over(&mut self) {
+        let Some(line) = self.drive.line().copied() else { return };
         let busy = !self.calm || !self.decider.listens() || self.level().player().round_is_due();
-        let held = self.hindered.waits() || self.hindered.owed() > Millimetres(0);
+        let held = self.hindered.waits() || self.drive.owed() > Millimetres(0);
         if busy
             || held
             || self.looks_at_margins()
             || !self.failures.thinks(self.robot)
-            || !self.is_steady()
+            || !self.is_steady(line)
         {
             return;
         }
@@ -42,9 +44,9 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let activities = &self.mission.scenario().activities;
         let borders = activities.iter().flat_map(|it| [it.x_start, it.x_end]);
         for border in borders.chain(self.hindered.next()).filter(|it| *it > self.drive.x()) {
-            most = most.min(self.drive.times_before(border, self.body.period).unwrap_or(0));
+            most = most.min(line.times_before(border, self.body.period).unwrap_or(0));
         }
-        let waits = match self.level().global() {
+        let waits = match self.global {
             Global::Does(_) if self.objective_stands() => {
                 let activity = self.planning.activity(self.objective, self.drive.x().0);
                 until(Millis(self.objective_since.0 + self.planning.standing(activity).0))
@@ -67,7 +69,9 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         }
         let power = self.power(self.drive.speed().0 > 0);
         let power = self.hindered.real(self.mission, self.drive.x(), power);
-        self.drive.glide(most, self.body.period);
+        if let Some(line) = self.drive.line_mut() {
+            line.glide(most, self.body.period);
+        }
         self.failures.look_on(self.robot, self.place, most);
         self.energy_uj = self
             .energy_uj
@@ -80,10 +84,10 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     }
 
     /// Whether the robot would go on at its speed for a period.
-    fn is_steady(&self) -> bool {
-        let mut next = self.drive;
+    fn is_steady(&self, line: Drive) -> bool {
+        let mut next = line;
         self.failures.go(self.robot, self.now, &self.demand(), &mut next);
-        next.speed() == self.drive.speed()
+        next.speed() == line.speed()
     }
 
     /// The exposures of the last period go on for so many.
@@ -105,7 +109,9 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             return 0;
         }
         match when {
-            Moment::Place(x) => self.drive.times_before(x, self.body.period).unwrap_or(0),
+            Moment::Place(x) => {
+                self.drive.line().and_then(|it| it.times_before(x, self.body.period)).unwrap_or(0)
+            }
             Moment::At(at) => until(at.0),
             Moment::During(place, after) => since(Some(place), after),
             Moment::Waiting(after) => since(None, after),

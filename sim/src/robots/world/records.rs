@@ -6,7 +6,7 @@ use crate::run::Reason;
 use crate::trace::supervised::{
     Autonomy, Configured, Decision, Diagnosis, Exposure, Failure, Fired, Told,
 };
-use crate::trace::{Activity, End, Record, Request, Sample};
+use crate::trace::{Activity, End, Pose, Record, Request, Sample};
 use cotama_core::net::TransitionId;
 use cotama_core::player::Program;
 use cotama_core::system::Of;
@@ -261,6 +261,23 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         if self.now >= to.next_sample {
             to.next_sample = Millis(self.now.0.saturating_add(self.period.0));
             to.put(|| self.sample(t_us, self.used(), self.planning.margins(&at)));
+            if let Some(rover) = self.drive.rover() {
+                let [(at_mm, heading_mrad), (odometry_mm, odometry_mrad)] =
+                    [rover.pose(), rover.odometry()].map(whole);
+                let person = |it: &cotama_plane::Disc| in_mm(it.centre.x, it.centre.y);
+                let people_mm = rover.people().iter().map(person).collect();
+                to.put(|| {
+                    Record::Pose(Pose {
+                        t_us,
+                        x_mm,
+                        at_mm,
+                        heading_mrad,
+                        odometry_mm,
+                        odometry_mrad,
+                        people_mm,
+                    })
+                });
+            }
         }
     }
 
@@ -300,4 +317,16 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             })
         });
     }
+}
+
+/// A pose in whole mm and thousandths of a radian.
+#[allow(clippy::cast_possible_truncation)] // headings are between -π and π
+fn whole(pose: &cotama_plane::Pose) -> ([i32; 2], i32) {
+    let at = pose.translation.vector;
+    (in_mm(at.x, at.y), (pose.rotation.angle() * 1_000.0).round() as i32)
+}
+
+#[allow(clippy::cast_possible_truncation)] // places of a floor
+fn in_mm(x: f64, y: f64) -> [i32; 2] {
+    [x, y].map(|it| (it * 1_000.0).round() as i32)
 }

@@ -55,9 +55,9 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
 
     /// Returns the word of the mission or the operator, if any.
     fn says(&mut self) -> (Option<Told>, Cause) {
-        let stands = self.drive.speed().0 == 0;
+        let stands = self.drive.stands();
         let none = (None, Cause(0));
-        match self.level().global() {
+        match self.global {
             Global::Secures => (stands.then_some(Told::Stopped), Cause(0)),
             Global::Safe | Global::Done => none,
             Global::Waits => (Some(Told::Begins), Cause(0)),
@@ -72,12 +72,15 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     }
 
     fn drive_says(&mut self) -> Option<Told> {
+        // Nobody looks at the rest while the robot goes on alone.
+        let his = mode(self.robot, self.place) == Some(Mode::Operator);
+        let asked = self.place == Where::Waits || his;
         let view = View {
             place: self.place,
             x: self.drive.x(),
-            lost: self.robot.lost(self.known),
-            link: self.link(),
-            at_goal: self.at_goal() && self.drive.speed().0 == 0,
+            lost: if asked { self.robot.lost(self.known) } else { 0 },
+            link: asked && self.link(),
+            at_goal: self.at_goal() && self.drive.stands(),
         };
         if let Some(word) = self.operator.says(self.robot, self.now, view) {
             return Some(word);

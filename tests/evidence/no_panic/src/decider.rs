@@ -6,7 +6,9 @@
 use cotama_core::player::{Firing, Observer};
 use cotama_core::system::Of;
 use cotama_core::{net::EventId, net::TransitionId, units::Millis};
-use cotama_models::level::{Adapted, Cause, Drive, Perceived, Requests, Round, Rows, Told};
+use cotama_models::level::{
+    Adapted, Cause, Drive, Failure, Hidden, Perceived, Requests, Round, Rows, Told,
+};
 use cotama_printed::{Careful, Decider, Level, system};
 
 /// The last that fired, or was ignored, and why.
@@ -110,4 +112,17 @@ fn root_decider_tell(
 #[unsafe(no_mangle)]
 fn root_decider_read(decider: &Decider<Careful>) -> (&Level<Careful>, &Adapted, u64, bool) {
     (decider.level(), decider.adapted(), decider.up(), decider.listens())
+}
+
+#[unsafe(no_mangle)]
+fn root_decider_hidden(
+    decider: &mut Decider<Careful>,
+    now: Millis,
+) -> (Hidden, u64, Option<Millis>) {
+    (decider.hidden(now), decider.unmasked(now), decider.unmasks_at(now))
+}
+
+#[unsafe(no_mangle)]
+fn root_hidden_diagnose(of: Hidden, failures: &[Failure], up: u64, raised: u64) -> Rows {
+    of.diagnose(failures, up, raised)
 }

@@ -71,8 +71,8 @@ fn root_told_numbers(told: Told, kind: u8, number: usize) -> ((u8, usize), Optio
 }
 
 #[unsafe(no_mangle)]
-fn root_tables_act(of: &Tables<'_>, on: Of<TransitionId>) -> Option<Act> {
-    of.act(on)
+fn root_tables_acts(of: &Tables<'_>, on: Of<TransitionId>) -> (usize, Option<Act>) {
+    (of.acts(on).count(), of.acts(on).next())
 }
 
 #[unsafe(no_mangle)]

@@ -1,0 +1,187 @@
+//! The floor that a mission goes over, its path, and the wheels of its robot.
+
+use crate::corridors;
+use crate::drivetrain::{Drivetrain, SPARE};
+use crate::track::Track;
+use cotama_devices::{Habits, People, Routes, SettingsError, Streams};
+use cotama_floor::{Floor, Needs, Planner, Point, Pose, Segments, Surface, Version, metres};
+use cotama_models::missions::{Leg, Mission, Way};
+use std::fmt;
+
+/// All that the robots of a mission share, made once for any number of runs.
+#[derive(Clone, Debug)]
+pub struct Course {
+    way: Way,
+    surface: Segments,
+    drivetrain: Drivetrain,
+    track: Track,
+    back: Track,
+    people: Option<(usize, Routes)>,
+}
+
+/// The room around a robot from which it cuts corners, in metres.
+const TIGHT: f64 = 0.15;
+/// The most places of a floor between which people walk: the first of its file.
+const PEOPLE_PLACES: usize = 12;
+
+/// Why a mission does not go over a floor.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoCourse {
+    /// The mission names no robot with a body.
+    Body,
+    /// The floor is a map: robots drive over drawings only.
+    Map,
+    /// The path is so long that no floor holds it.
+    Long,
+    /// The floor cannot be driven on.
+    Floor(String),
+    /// The robot has no room where it starts.
+    Start,
+    /// The floor has no places for people, or they are too many.
+    People(String),
+}
+
+impl fmt::Display for NoCourse {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Body => f.write_str("the mission names no robot with a body"),
+            Self::Map => f.write_str("robots drive over drawn floors, not over maps yet"),
+            Self::Long => f.write_str("the path is too long for the corridors of one floor"),
+            Self::Floor(why) => write!(f, "the floor cannot be driven on: {why}"),
+            Self::People(why) => write!(f, "people cannot walk on this floor: {why}"),
+            Self::Start => f.write_str("the robot has no room at the start of its path"),
+        }
+    }
+}
+
+impl std::error::Error for NoCourse {}
+
+/// Leads a way around things that are not on the map of the robot, as avoidance that knows them
+/// would. A leg is as long for the mission as it was: lengths along it are in proportion.
+fn around(way: Way, surface: &Segments, drivetrain: &Drivetrain) -> Way {
+    let radius_m = drivetrain.footprint.radius() + SPARE;
+    let mut planner = None;
+    let mut led = |leg: Leg| {
+        if is_free(&leg.points, surface, drivetrain) {
+            return leg;
+        }
+        let planner = planner.get_or_insert_with(|| {
+            Planner::new(surface, Needs { radius_m, ..Needs::default() }).ok()
+        });
+        let ends = leg.points.first().zip(leg.points.last());
+        let route = planner
+            .as_ref()
+            .zip(ends)
+            .and_then(|(planner, (from, to))| planner.route(metres(*from), metres(*to)).ok());
+        let Some(route) = route else { return leg };
+        let points = route.points().iter().map(in_mm).collect();
+        Leg { points, ..leg }
+    };
+    let legs = way.legs.into_iter().map(|it| it.map(&mut led)).collect();
+    Way { legs, ..way }
+}
+
+#[allow(clippy::cast_possible_truncation)] // points of a floor
+fn in_mm(it: &Point) -> [i32; 2] {
+    [(it.x * 1_000.0).round() as i32, (it.y * 1_000.0).round() as i32]
+}
+
+/// Whether a robot can follow straight pieces without touching anything.
+fn is_free(points: &[[i32; 2]], surface: &Segments, drivetrain: &Drivetrain) -> bool {
+    points.iter().zip(points.iter().skip(1)).all(|(from, to)| {
+        let (from, to) = (metres(*from), metres(*to));
+        let way = to - from;
+        let steps = (way.norm() / 0.02).ceil().max(1.0);
+        let mut part = 0.0;
+        while part <= steps {
+            let at = from + way * (part / steps);
+            if !surface.is_free(&drivetrain.footprint, &Pose::new(at.coords, 0.0)) {
+                return false;
+            }
+            part += 1.0;
+        }
+        true
+    })
+}
+
+impl Course {
+    /// Returns the course of a mission. One that names no floor goes along
+    /// [corridors](corridors::along) as long as its path. So many people walk between the places of
+    /// the floor.
+    ///
+    /// # Errors
+    /// A [`NoCourse`] where no robot could drive.
+    pub fn of(mission: &Mission, people: usize) -> Result<Self, NoCourse> {
+        let body = mission.robot().and_then(|it| it.robot().body.as_ref()).ok_or(NoCourse::Body)?;
+        let drivetrain = Drivetrain::of(body);
+        let way = match &mission.way {
+            Some(it) => it.clone(),
+            None => corridors::along(mission.path_length).ok_or(NoCourse::Long)?,
+        };
+        let floor = Floor::parse(&way.source, &way.text).map_err(|_| NoCourse::Map)?;
+        let why = |it: String| NoCourse::Floor(it);
+        let floor =
+            floor.with_doors(&way.asked.open, &way.asked.close).map_err(|it| why(it.message))?;
+        let surface = floor.surface(Version::Real, &[]).map_err(|it| why(it.to_string()))?;
+        let way = around(way, &surface, &drivetrain);
+        let radius = drivetrain.footprint.radius();
+        let is_tight = |at: Point| surface.clearance(at, radius + TIGHT) < radius + TIGHT;
+        let track = Track::of(&way, &drivetrain, is_tight)
+            .ok_or_else(|| why("the path has no length".into()))?;
+        if !surface.is_free(&drivetrain.footprint, &track.start()) {
+            return Err(NoCourse::Start);
+        }
+        let back = track.back(&drivetrain);
+        let course = Self { way, surface, drivetrain, track, back, people: None };
+        if people == 0 { Ok(course) } else { course.among(people, &floor) }
+    }
+
+    /// The same with people who walk between the places of the floor.
+    fn among(self, count: usize, floor: &Floor) -> Result<Self, NoCourse> {
+        let why = |it: &dyn fmt::Display| NoCourse::People(it.to_string());
+        let radius_m = Habits::default().radius_m;
+        let needs = Needs { radius_m, cell_m: 0.1, ..Needs::default() };
+        let planner = Planner::new(&self.surface, needs).map_err(|it| why(&it))?;
+        let places: Vec<_> = floor.places.iter().map(|it| metres(it.at)).collect();
+        if places.len() < 2 {
+            return Err(why(&"it has less than two places"));
+        }
+        let places = places.get(..places.len().min(PEOPLE_PLACES)).unwrap_or_default();
+        let routes = Routes::plan(&planner, places).map_err(|it| why(&it))?;
+        let course = Self { people: Some((count, routes)), ..self };
+        course.people(0).map_err(|it| why(&it))?;
+        Ok(course)
+    }
+
+    /// Returns the people of a run with this seed, where they are at its start.
+    pub(crate) fn people(&self, seed: u64) -> Result<Option<People>, SettingsError> {
+        let Some((count, routes)) = &self.people else { return Ok(None) };
+        let streams = Streams::new(seed);
+        People::new(*count, &Habits::default(), routes.clone(), &streams, "people").map(Some)
+    }
+
+    /// Returns the floor and the way over it.
+    pub const fn way(&self) -> &Way {
+        &self.way
+    }
+
+    /// Returns the floor as it is.
+    pub const fn surface(&self) -> &Segments {
+        &self.surface
+    }
+
+    /// Returns the wheels.
+    pub const fn drivetrain(&self) -> &Drivetrain {
+        &self.drivetrain
+    }
+
+    /// Returns the path.
+    pub const fn track(&self) -> &Track {
+        &self.track
+    }
+
+    /// Returns the path that leads back.
+    pub(crate) const fn back(&self) -> &Track {
+        &self.back
+    }
+}

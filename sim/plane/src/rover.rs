@@ -1,0 +1,262 @@
+//! A robot on the path of its mission.
+
+use crate::course::Course;
+use crate::follower::{Follower, STEP};
+use crate::odometry::Odometry;
+use crate::track::Near;
+use crate::vehicle::{Command, Vehicle};
+use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
+use cotama_devices::{Disc, People};
+use cotama_floor::Pose;
+
+/// A robot that follows the path of its mission, and knows where it is.
+#[derive(Clone, Debug)]
+pub struct Rover<'c> {
+    course: &'c Course,
+    vehicle: Vehicle,
+    odometry: Odometry,
+    follower: Follower,
+    /// How far it has come along its path.
+    x: Millimetres,
+    /// The way to drive before it gets on along its path.
+    owed: Millimetres,
+    aside: Aside,
+    moved: bool,
+    touches: bool,
+    people: Option<People>,
+    /// The time since the start.
+    now: Millis,
+}
+
+/// A way that the robot drives beside its path: back along it, and forth again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Aside {
+    No,
+    /// Back, up to this length along the path that leads back.
+    Back(f64),
+    /// Forth, to where it was.
+    Forth,
+}
+
+/// How far ahead it looks for people, and the room that it keeps from them, in metres.
+const LOOKS: f64 = 4.0;
+const KEEPS: f64 = 0.3;
+/// How near a robot comes to where it stops, in metres.
+const AT: f64 = 0.001_5;
+
+impl<'c> Rover<'c> {
+    /// A robot that stands at the start of its path; people are where this seed draws them.
+    pub fn new(course: &'c Course, seed: u64) -> Self {
+        let start = course.track().start();
+        let radius = course.drivetrain().footprint.radius();
+        let robot = Disc { centre: start.translation.vector.into(), radius };
+        let people = course.people(seed).ok().flatten();
+        let people = people.map(|mut it| {
+            it.make_room(&robot);
+            it
+        });
+        Self {
+            course,
+            vehicle: Vehicle::new(start),
+            odometry: Odometry::new(start),
+            follower: Follower::new(Near { piece: 0, along: 0.0 }),
+            x: Millimetres(0),
+            owed: Millimetres(0),
+            aside: Aside::No,
+            moved: false,
+            touches: false,
+            people,
+            now: Millis(0),
+        }
+    }
+
+    /// Returns how far it has come along its path; never less than before.
+    pub const fn x(&self) -> Millimetres {
+        self.x
+    }
+
+    /// Returns its speed along its way, rounded up to mm/s.
+    pub fn speed(&self) -> MillimetresPerSecond {
+        MillimetresPerSecond(milli(self.vehicle.speeds().speed.abs()))
+    }
+
+    /// Whether it stands, and does not turn either.
+    pub fn stands(&self) -> bool {
+        self.vehicle.speeds() == Command::default()
+    }
+
+    /// Returns its pose.
+    pub const fn pose(&self) -> &Pose {
+        self.vehicle.pose()
+    }
+
+    /// Returns the pose that its encoders tell.
+    pub const fn odometry(&self) -> &Pose {
+        self.odometry.pose()
+    }
+
+    /// Whether it moved in the last period, also on the spot.
+    pub const fn moved(&self) -> bool {
+        self.moved
+    }
+
+    /// Whether it ran against something.
+    pub const fn touches(&self) -> bool {
+        self.touches
+    }
+
+    /// Returns the people around it.
+    pub fn people(&self) -> &[Disc] {
+        self.people.as_ref().map_or(&[], People::now)
+    }
+
+    /// Returns the way that is left to drive beside its path.
+    pub const fn owed(&self) -> Millimetres {
+        self.owed
+    }
+
+    /// Owes a way beside its path: it turns back and comes again before it goes on.
+    pub fn owe(&mut self, way: Millimetres) {
+        self.owed.0 += way.0;
+    }
+
+    /// Returns how far it would still go if it braked now.
+    pub fn braking_distance(&self) -> Millimetres {
+        let speed = self.vehicle.speeds().speed;
+        Millimetres(milli(speed * speed / (2.0 * self.course.drivetrain().acceleration)))
+    }
+
+    /// Stands at once.
+    pub fn stand(&mut self) {
+        self.vehicle.stand();
+    }
+
+    /// Goes on for a time towards a speed, no further along its path than an end; an end that is
+    /// reached holds it.
+    pub fn go(&mut self, towards: MillimetresPerSecond, end: Millimetres, time: Millis) {
+        self.moved = false;
+        self.now.0 += time.0;
+        let towards = towards.0 as f64 / 1_000.0;
+        let towards = if self.people.is_some() { self.among_people(towards) } else { towards };
+        let on_path = self.aside == Aside::No && self.owed.0 == 0;
+        if end.0 <= self.x.0 && on_path {
+            self.vehicle.stand();
+            return;
+        }
+        let mut steps = time.0.div_ceil(10);
+        while steps > 0 {
+            steps -= self.step(towards, end, steps);
+        }
+        self.odometry.read(self.course.drivetrain(), self.vehicle.counts(self.course.drivetrain()));
+    }
+
+    /// Returns the speed at which it still stands before it comes close to somebody on its path: it
+    /// knows where people are.
+    fn among_people(&mut self, towards: f64) -> f64 {
+        let (course, along) = (self.course, self.follower.along());
+        let robot = Disc {
+            centre: self.vehicle.pose().translation.vector.into(),
+            radius: course.drivetrain().footprint.radius(),
+        };
+        let Some(people) = &mut self.people else { return towards };
+        let (now, track) = (self.now, course.track());
+        let mut speed = towards;
+        // Nobody steps where the robot could not stand any more.
+        let brakes = self.vehicle.speeds().speed;
+        let brakes = brakes * brakes / (2.0 * course.drivetrain().acceleration);
+        let seen = Disc { radius: robot.radius + brakes, ..robot };
+        for person in people.advance(now, &[seen]) {
+            let gap = robot.gap(person);
+            self.touches |= gap < 0.0;
+            // Ahead alone: a path may lead back over where it came from.
+            let (near, aside) = track.find(person.centre, along, along + LOOKS);
+            let is_ahead = near.along > along && gap < LOOKS;
+            if is_ahead && aside < robot.radius + person.radius + KEEPS {
+                let left = (gap - KEEPS).max(0.0);
+                speed = speed.min((2.0 * course.drivetrain().acceleration * left).sqrt());
+            }
+        }
+        speed
+    }
+
+    /// Goes on for a step, or for all of these where nothing changes; returns for how many.
+    fn step(&mut self, speed: f64, end: Millimetres, most: u64) -> u64 {
+        if self.owed.0 > 0 && self.aside == Aside::No && self.vehicle.speeds().speed == 0.0 {
+            self.turn_back();
+        }
+        let goal = match self.aside {
+            Aside::No if self.owed.0 > 0 => self.follower.along(), // brakes, to turn back
+            Aside::No => end.0 as f64 / 1_000.0,
+            Aside::Back(to) => to,
+            Aside::Forth => self.x.0 as f64 / 1_000.0,
+        };
+        let course = self.course;
+        let (track, drivetrain) = (
+            if matches!(self.aside, Aside::Back(_)) { course.back() } else { course.track() },
+            course.drivetrain(),
+        );
+        let now = self.vehicle.speeds();
+        let pose = *self.vehicle.pose();
+        let (command, same) = self.follower.command(track, &pose, now, drivetrain, speed, goal);
+        let all = STEP * most as f64;
+        let even = now == command && same > now.speed * all;
+        let (steps, time) = if even { (most, all) } else { (1, STEP) };
+        self.vehicle.step(drivetrain, course.surface(), command, time);
+        self.touches |= self.vehicle.touches();
+        self.moved |= *self.vehicle.pose() != pose;
+        self.follower.see(track, self.vehicle.pose());
+        let along = self.follower.along();
+        // A robot that is not to move is nowhere else than it was.
+        if along + AT < goal || speed == 0.0 {
+            if self.aside == Aside::No {
+                self.x = self.x.max(Millimetres(floor_milli(along).min(end.0)));
+            }
+            return steps;
+        }
+        match self.aside {
+            Aside::No if self.owed.0 > 0 => {
+                self.x = self.x.max(Millimetres(floor_milli(along).min(end.0)));
+            }
+            Aside::No => {
+                self.x = self.x.max(end);
+                self.vehicle.stand();
+            }
+            Aside::Back(_) => {
+                self.vehicle.stand();
+                self.aside = Aside::Forth;
+                let length = course.track().length();
+                self.follow(length - along);
+            }
+            Aside::Forth => {
+                self.aside = Aside::No;
+                self.owed = Millimetres(0);
+            }
+        }
+        steps
+    }
+
+    /// Turns back for half of the way that is owed, as far as there is path behind it.
+    fn turn_back(&mut self) {
+        let along = self.follower.along();
+        let half = (self.owed.0 as f64 / 2_000.0).min(along);
+        let back = self.course.track().length() - along;
+        self.aside = Aside::Back(back + half);
+        let at = self.vehicle.pose().translation.vector.into();
+        self.follower = Follower::new(self.course.back().find(at, back - 0.1, back + 0.1).0);
+    }
+
+    fn follow(&mut self, along: f64) {
+        let at = self.vehicle.pose().translation.vector.into();
+        self.follower = Follower::new(self.course.track().find(at, along - 0.1, along + 0.1).0);
+    }
+}
+
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // lengths and speeds of a floor
+fn milli(it: f64) -> u64 {
+    (it * 1_000.0).ceil() as u64
+}
+
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // lengths of a floor
+fn floor_milli(it: f64) -> u64 {
+    (it * 1_000.0).floor() as u64
+}
