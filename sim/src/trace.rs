@@ -186,7 +186,7 @@ pub enum Record {
     Activity(Activity),
     /// The margins were checked.
     Sample(Sample),
-    /// Where the robot is in the plane; after every sample.
+    /// Pose of the robot in the plane; after every sample.
     Pose(Pose),
     /// Something happened to the robot; written when it is over.
     Event(Event),

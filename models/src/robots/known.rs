@@ -25,7 +25,7 @@ pub const SETTINGS: RangeInclusive<i64> = 1..=9;
 pub const ASKS: RangeInclusive<i64> = 1..=9;
 /// When flags are masked: with what is told of the failure, or on the operator's order.
 pub const MASKS: [&str; 2] = ["told", "order"];
-/// What counts of the parts that an observer alone watches, while it sees nothing.
+/// Names of the rule for parts that an observer alone watches, while it sees nothing.
 pub const UNWATCHED: [&str; 2] = ["kept", "lost"];
 /// Reactions that are tried one after the other, by their keys.
 pub const TRIES: [(&str, Try); 3] =

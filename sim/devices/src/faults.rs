@@ -58,7 +58,7 @@ enum Memory {
     None,
     /// The last frame, and whether there was one.
     Last(Vec<f64>, bool),
-    /// Those that are delayed.
+    /// Readings that are delayed.
     Late(Pipe<f64>),
 }
 

@@ -1,4 +1,4 @@
-//! What a robot in the plane senses: the signals of its devices, and the people around.
+//! Devices of a robot in the plane, the signals that they read, and the people around.
 //!
 //! A device is told the time, the pose of the robot and the [`Scene`]: the floor as it really is,
 //! with the people and robots on it, each a [`Disc`]. It takes a reading when one is due, and hands

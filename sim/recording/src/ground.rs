@@ -26,7 +26,7 @@ pub(crate) struct Raster {
     pub(crate) cells: Vec<u8>,
 }
 
-/// What stands in a cell of an occupancy grid.
+/// Content of a cell of an occupancy grid.
 const FREE: u8 = 0;
 const OCCUPIED: u8 = 100;
 /// The size of a cell; twice that, and so on, where a map had more cells than the most.

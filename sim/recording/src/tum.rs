@@ -9,7 +9,7 @@ use std::fmt::Write;
 /// Poses of a run as text: those that were, and those that odometry told.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tum {
-    /// Where the robot was.
+    /// Poses where the robot was.
     pub truth: String,
     /// The poses that its encoders told.
     pub odometry: String,

@@ -197,7 +197,7 @@ pub struct Run {
     pub ended_by: Option<usize>,
     /// The transitions that fired, as `ls.ask_Follow`, each once.
     pub fired: BTreeSet<String>,
-    /// Where it ran against something, in the plane, which ended it.
+    /// Position at which it ran against something, in the plane, which ended it.
     pub touched: Option<Millimetres>,
     /// The property that it broke, which ended it.
     pub violated: Option<Violation>,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Where the robot is in the plane, from the left lower corner of the floor; headings are
+/// Pose of the robot in the plane, in mm from the left lower corner of the floor; headings are
 /// thousandths of a radian, counter-clockwise from the x axis.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Pose {

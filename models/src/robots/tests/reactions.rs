@@ -1,5 +1,5 @@
-//! What is tried first, in which order, and masks: as the observation module and the level do it,
-//! and each cause of refusal once.
+//! Steps that are tried first, in their order, and masks: as the observation module and the level
+//! do it, and each cause of refusal once.
 
 use super::broken::{FILE, refused};
 use super::{fires, net, places};

@@ -9,7 +9,7 @@ pub(crate) struct Message {
     pub(crate) data: Vec<u8>,
 }
 
-/// What a file holds.
+/// Content of a file.
 #[derive(Debug, Default)]
 pub(crate) struct File {
     pub(crate) messages: Vec<Message>,
