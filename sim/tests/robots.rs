@@ -83,6 +83,40 @@ fn a_laser_found_lost_gives_the_four_plans_of_table_7() {
     assert_eq!((lost.x.0 / 100, lost.detected.unwrap().0 - lost.injected.0), (1_180, 290));
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    /// A mission without a robot has an exact world of its own; this is what holds both together.
+    #[test]
+    fn the_patrol_under_supervision_costs_what_the_exact_world_says(
+        obstacles in prop::collection::btree_map(0_u32..187_000, 0_u32..20_000, 0..4)
+    ) {
+        let event = |(x, delay): (&u32, &u32)| {
+            format!("{{ x_mm = {x}, kind = \"obstacle\", delay_ms = {delay} }}")
+        };
+        let events: Vec<_> = obstacles.iter().map(event).collect();
+        let text = format!("format = \"panorama-faults/1\"\nevent = [{}]\n", events.join(", "));
+        let patrol = embedded::mission("patrol").unwrap();
+        let exact = Mission::parse(patrol.name, patrol.text).unwrap();
+        // Where a limit binds, a tenth of a second decides on a replan.
+        let used = |mission: &Mission| {
+            let mission = mission.clone().with_limits([Some(700_000), Some(12_000_000)]).unwrap();
+            let faults = Faults::parse("obstacles", &text, &mission).unwrap();
+            let faults = FaultChoice::Given { source: "drawn".into(), faults };
+            let run = Trace::record(&mission, &Options { faults, ..Options::default() }).unwrap().1;
+            (run.outcome, run.plans.len(), run.used)
+        };
+        let (exact, supervised) = (used(&exact), used(&PATROL));
+        prop_assert_eq!((exact.0, exact.1), (supervised.0, supervised.1));
+        // 17 periods of 10 ms for 17 activities, and up to 3 where it is held up: there it brakes
+        // and speeds up.
+        let more = |axis: usize| supervised.2[axis] - exact.2[axis];
+        let most = 170 + 30 * obstacles.len() as u64;
+        prop_assert!((150..=most).contains(&more(0)), "{} ms", more(0));
+        prop_assert!(more(1) <= most * 18, "{} mJ", more(1)); // at most 18 W
+    }
+}
+
 #[test]
 fn a_lost_localisation_algorithm_is_planned_around_as_well() {
     let run = failing(&PATROL, "LOC2", 118_000);
