@@ -51,6 +51,7 @@ mod route;
 mod segments;
 mod surface;
 mod way;
+pub mod yaml;
 
 pub use field::{Field, FieldError, Measure};
 pub use floor::{

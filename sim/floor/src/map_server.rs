@@ -53,7 +53,6 @@ mod metadata;
 mod pgm;
 mod png;
 mod values;
-mod yaml;
 
 pub use image::ImageError;
 pub use metadata::{MAX_TEXT, Metadata, Mode, Warning};

@@ -1,6 +1,6 @@
 //! The text of a map.
 
-use super::yaml::{self, Node, Tree, Value, number, truth};
+use crate::yaml::{self, Expected, Node, Tree, Value, number, truth};
 use cotama_models::missions::MissionErrors;
 use cotama_models::reading::{Diagnostic, Position, Sink, errors, quoted, unknown};
 use std::fmt;
@@ -62,6 +62,11 @@ impl fmt::Display for Warning {
 const KEYS: [&str; 7] =
     ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"];
 
+const EXPECTED: Expected = Expected {
+    text: "the text of a map",
+    example: "write `image: map.pgm` and so on, a line each",
+};
+
 impl Metadata {
     /// Reads the text of a map. `source_name` is its name in messages.
     ///
@@ -95,8 +100,8 @@ fn read(source_name: &str, text: &str, sink: &Sink) -> Option<(Metadata, Vec<War
         sink.report(it.help("is it the text of a map?"));
         return None;
     }
-    let (tree, whole) = yaml::read(text, sink)?;
-    let entries = tree.entries(whole, sink)?;
+    let (tree, whole) = yaml::read(text, EXPECTED, sink)?;
+    let entries = tree.entries(whole, EXPECTED, sink)?;
     let mut keys = Keys { tree: &tree, entries, sink, missing: Vec::new() };
     let image = keys.text("image");
     let resolution = keys.resolution();

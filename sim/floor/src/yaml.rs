@@ -1,4 +1,15 @@
-//! The first document of a YAML text as a tree with places.
+//! The first document of a YAML text as a tree with places, for files of ROS.
+//!
+//! ```
+//! use cotama_floor::yaml::{self, Expected, Value};
+//! use cotama_models::reading::Sink;
+//! let sink = Sink::default();
+//! let expected = Expected { text: "the text of a lamp", example: "write `power: 60`" };
+//! let (tree, whole) = yaml::read("power: 60", expected, &sink).unwrap();
+//! let entries = tree.entries(whole, expected, &sink).unwrap();
+//! let Value::Text(power) = &entries[0].1.value else { panic!() };
+//! assert_eq!((yaml::number(power), entries[0].1.span.clone()), (Some(60.0), 7..9));
+//! ```
 
 use cotama_models::reading::{Diagnostic, Sink};
 use saphyr_parser::{Event, Parser, ScalarStyle, Span};
@@ -8,16 +19,32 @@ use std::ops::Range;
 /// The most values of a text.
 const MAX_VALUES: usize = 4_096;
 
-/// A value; those inside it stand in front of it.
-pub(super) struct Node {
-    pub(super) span: Range<usize>,
-    pub(super) value: Value,
+/// The text that is read, for messages.
+#[derive(Clone, Copy, Debug)]
+pub struct Expected {
+    /// A name of the text, as in "is it the text of a map?".
+    pub text: &'static str,
+    /// Lines to write where there are none.
+    pub example: &'static str,
 }
 
-pub(super) enum Value {
+/// A value; those inside it stand in front of it.
+#[derive(Debug)]
+pub struct Node {
+    /// Its bytes in the text.
+    pub span: Range<usize>,
+    /// The value itself.
+    pub value: Value,
+}
+
+/// A value of YAML.
+#[derive(Debug)]
+pub enum Value {
+    /// A scalar, quoted or not.
     Text(String),
     /// Nothing, or `~`.
     Nothing,
+    /// Numbers of values in the tree.
     List(Vec<usize>),
     /// Keys and values in the order of the text.
     Map(Vec<(usize, usize)>),
@@ -32,13 +59,14 @@ struct Open {
 }
 
 /// The values of a text; the last one is the whole.
-#[derive(Default)]
-pub(super) struct Tree {
+#[derive(Debug, Default)]
+pub struct Tree {
     nodes: Vec<Node>,
 }
 
 impl Tree {
-    pub(super) fn get(&self, at: usize) -> Option<&Node> {
+    /// Returns the value of a number.
+    pub fn get(&self, at: usize) -> Option<&Node> {
         self.nodes.get(at)
     }
 
@@ -48,19 +76,24 @@ impl Tree {
     }
 
     /// Returns the keys and values of the whole, or reports that it has none.
-    pub(super) fn entries(&self, whole: usize, sink: &Sink) -> Option<Vec<(&Node, &Node)>> {
+    pub fn entries(
+        &self,
+        whole: usize,
+        expected: Expected,
+        sink: &Sink,
+    ) -> Option<Vec<(&Node, &Node)>> {
         let node = self.get(whole)?;
         if let Value::Map(entries) = &node.value {
             return entries.iter().map(|it| Some((self.get(it.0)?, self.get(it.1)?))).collect();
         }
         let it = Diagnostic::new(node.span.clone(), "the text has no keys with values", "no key");
-        sink.report(it.help("write `image: map.pgm` and so on, a line each"));
+        sink.report(it.help(expected.example));
         None
     }
 }
 
 /// Reads the first document of a text; returns the place of the whole in the tree.
-pub(super) fn read(text: &str, sink: &Sink) -> Option<(Tree, usize)> {
+pub fn read(text: &str, expected: Expected, sink: &Sink) -> Option<(Tree, usize)> {
     // The parser counts characters.
     let mut starts: Vec<usize> = text.char_indices().map(|it| it.0).collect();
     starts.push(text.len());
@@ -82,7 +115,7 @@ pub(super) fn read(text: &str, sink: &Sink) -> Option<(Tree, usize)> {
         let span = range(span);
         if tree.nodes.len() >= MAX_VALUES {
             let it = Diagnostic::new(span, format!("more than {MAX_VALUES} values"), "too many");
-            sink.report(it.help("is it the text of a map?"));
+            sink.report(it.help(format!("is it {}?", expected.text)));
             return None;
         }
         let (at, name) = match event {
@@ -128,12 +161,12 @@ pub(super) fn read(text: &str, sink: &Sink) -> Option<(Tree, usize)> {
         }
     }
     let it = Diagnostic::new(0..0, "the text is empty", "nothing");
-    sink.report(it.help("write `image: map.pgm` and so on, a line each"));
+    sink.report(it.help(expected.example));
     None
 }
 
 /// Reads a number as streams of C++ do: digits with a point and an exponent.
-pub(super) fn number(text: &str) -> Option<f64> {
+pub fn number(text: &str) -> Option<f64> {
     let text = text.trim_end_matches([' ', '\t', '\n', '\r']);
     let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
     let good = |c: char| c.is_ascii_digit() || matches!(c, '.' | 'e' | 'E' | '+' | '-');
@@ -143,7 +176,7 @@ pub(super) fn number(text: &str) -> Option<f64> {
 }
 
 /// Reads a truth value: a whole number with its prefix of C, or a word.
-pub(super) fn truth(text: &str) -> Option<bool> {
+pub fn truth(text: &str) -> Option<bool> {
     let trimmed = text.trim_end_matches([' ', '\t', '\n', '\r']);
     let digits = trimmed.strip_prefix(['+', '-']).unwrap_or(trimmed);
     let (digits, radix) = match digits.as_bytes() {
