@@ -114,9 +114,8 @@ pub struct Supply {
 /// 2011); V + R I is the voltage at rest, with independent errors that are as often above as below.
 ///
 /// *Threshold.* A battery whose voltage at rest is just at the level is below it in half of the
-/// readings: k in a row, the least with 1/2ᵏ⁺¹ at most the chance of a decision. Each hour above the
-/// level makes alarms rarer, so it is the level and the time that are stated, as in "below 11.5 V
-/// for 2 s".
+/// readings: k in a row, the least with 1/2ᵏ⁺¹ at most the chance of a decision. A battery above
+/// the level makes alarms rarer than that.
 ///
 /// ```
 /// use cotama_core::units::Millis;

@@ -29,9 +29,9 @@ fn seconds(from: Millis, to: Millis) -> f64 {
 /// An observer of a robot that is back on its path for too long (Durand et al., TAROS 2010,
 /// Section VI.A.2): behind the furthest place that it reached, as avoidance leads it back.
 ///
-/// *Assumption.* Times that a sound robot is behind have a [`Tail`], in seconds. Noise of the
-/// length along the path makes it seem behind no more often than promised: it is behind if it is
-/// so by more than z σ √2.
+/// *Assumption.* Times that a sound robot is behind have a [`Tail`], in seconds. Lengths along the
+/// path have a normal error of deviation σ: a robot counts as behind if it is so by more than
+/// z σ √2, so that errors alone make no long times.
 ///
 /// *Threshold.* The length of time that the tail exceeds as seldom as promised.
 #[derive(Clone, Debug, PartialEq)]

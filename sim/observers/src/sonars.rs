@@ -21,7 +21,8 @@ impl Far {
 
     /// Takes a reading, unless it was taken before; returns the length of a spell that it ends.
     fn read(&mut self, reading: Sensed<f64>, range_m: f64, way_m: f64) -> Option<f64> {
-        if self.last.is_some_and(|it| it.0 == reading.taken) {
+        let is_old = self.last.is_some_and(|it| reading.taken <= it.0);
+        if is_old || reading.value.is_nan() {
             return None;
         }
         let before = self.last.replace((reading.taken, way_m)).map_or(way_m, |it| it.1);
@@ -74,7 +75,7 @@ impl SonarSurvey {
 /// and those ahead see along corridors.
 ///
 /// *Threshold.* The way that a sonar's spells exceed at an equal share of the promised rate per
-/// hour of motion: u + m ln(n b / λ), with n sonars, b spells per hour beyond u, m their mean excess.
+/// hour of motion: u + m ln(n b / λ), with n sonars, b spells per hour beyond u, m their excess.
 ///
 /// ```
 /// use cotama_core::units::Millis;

@@ -42,7 +42,7 @@ impl Wheels {
 ///
 /// A wheel follows its command u as ω' = (u - ω) / τ; its motor draws
 /// `c_v ω + c_c sat(ω / ω_c) + c_a ω'`: viscous and dry friction, and acceleration (Isermann,
-/// Fault-Diagnosis Applications, Springer 2011, Section 3.1, a motor with its load, over the torque
+/// Fault-Diagnosis Applications, Springer 2011, Chapter 3, a motor with its load, over the torque
 /// constant).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelSettings {
@@ -73,9 +73,8 @@ pub struct WheelSettings {
 impl WheelSettings {
     /// The wheels of a Pioneer 3-DX: radius 0.0975 m, axle 0.33 m (Webots, `Pioneer3dx.proto`).
     ///
-    /// Assumed, as no public source has them: all others. The currents are those of 9 kg on two
-    /// motors of 0.8 Nm/A at the wheel, and of a cruise near the 7.4 W per m/s of Mei et al. (ICAR
-    /// 2005).
+    /// Assumed, as no public source has them: all others. The current of acceleration is that of
+    /// 4.5 kg on each wheel, with 0.8 N m/A.
     pub const fn pioneer() -> Self {
         Self {
             lag_s: 0.15,

@@ -40,6 +40,14 @@ fn a_nearer_reading_ends_the_spell() {
     assert_eq!(flags[4], Flag::Raised); // 0.9 m and 0.2 m since the near one at 1.0 m
 }
 
+#[test]
+fn a_reading_that_is_no_number_ends_no_spell() {
+    let mut far = one();
+    let ways = [(0, 5.0, 0.0), (1, f64::NAN, 0.9), (2, f64::INFINITY, 1.1)];
+    let flags = ways.map(|(taken, value, way)| far.observe(&[read(taken, value)], way));
+    assert_eq!(flags, [Flag::Clear, Flag::Clear, Flag::Raised]);
+}
+
 /// A robot that goes ahead where there is room, else turns aside.
 struct Wanderer {
     pose: Pose,

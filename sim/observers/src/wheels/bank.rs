@@ -31,8 +31,10 @@ impl Filter {
     /// constant, and the innovations over their deviations.
     ///
     /// The readings have errors of their own each, so they are taken one after the other, and no
-    /// matrix is inverted (Bar-Shalom, Li, Kirubarajan, Estimation with Applications to Tracking
-    /// and Navigation, 2001, Section 7.3.3).
+    /// matrix is inverted. A reading may be an outlier, in each model alike: its likelihood is
+    /// (1 - q) N + q / spread, and the state follows it as far as it is trusted. Without that an
+    /// outlier broke the promise: 7 alarms in 10,000 periods where 1 was promised, though two in a
+    /// row were asked for.
     pub(crate) fn step(
         &mut self,
         mode: Mode,
@@ -83,7 +85,9 @@ impl Filter {
 }
 
 /// A bank of filters, one of each model: interacting multiple models (Blom and Bar-Shalom, IEEE
-/// Transactions on Automatic Control 33(8), 1988).
+/// Transactions on Automatic Control 33(8), 1988). COTAMA names a bank of filters that do not
+/// exchange their states (Roumeliotis, Sukhatme, Bekey, ICRA 1998; Magill, IEEE Transactions on
+/// Automatic Control 10(4), 1965): that finds faults as soon, and sees their end later.
 ///
 /// In each period a sound robot breaks with a small chance, equally likely in each way, and a
 /// broken one is sound again with another. Before a period each filter begins at the mean of the
