@@ -220,6 +220,13 @@ mod tests {
     }
 
     #[test]
+    fn a_link_that_falls_is_lost_when_its_line_meets_the_level() {
+        let mut link = LinkLevel::new(-80.0, 2.0, 4, TIMES, promise()).unwrap();
+        (0..4).for_each(|it| _ = link.observe(level(it, -70.0 - it as f64)));
+        assert_eq!(link.time_to_loss_s(), Some(3.5)); // 7 dB above, by 2 dB a second
+    }
+
+    #[test]
     fn a_link_that_rises_is_never_lost() {
         let mut link = LinkLevel::new(-80.0, 2.0, 4, TIMES, promise()).unwrap();
         (0..4).for_each(|it| _ = link.observe(level(it, -70.0 + it as f64)));

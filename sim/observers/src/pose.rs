@@ -342,6 +342,25 @@ mod tests {
         assert_eq!(jump.observe(drive.step()), Flag::Clear); // it goes on from there
     }
 
+    /// The whole way turns with the heading at its begin: an error of one deviation explains all.
+    #[test]
+    fn a_heading_that_was_wrong_at_the_begin_is_no_jump() {
+        let exact = OdometryErrors { way: 1e-5, drift: 1e-5, turn: 1e-5 };
+        let promise = FalseAlarms::per_hour(0.36).unwrap();
+        let mut apart = Apart::new(exact, Millis(100), promise).unwrap();
+        let poses = |at: [f64; 2], heading, deviation: f64| Poses {
+            odometry: Isometry2::new(at.into(), 0.0),
+            located: Isometry2::new(at.into(), heading),
+            covariance: Matrix3::from_diagonal(&[1e-6, 1e-6, deviation * deviation].into()),
+        };
+        let read = |taken, value| Some(Sensed { taken: Millis(taken), value });
+        apart.observe(read(0, poses([0.0, 0.0], 0.02, 0.02)));
+        assert_eq!(apart.observe(read(100, poses([1.0, 1.0], 0.0, 1e-3))), Flag::Clear);
+        // With a heading that was sure, it is one.
+        apart.observe(read(200, poses([1.0, 1.0], 0.02, 1e-3)));
+        assert_eq!(apart.observe(read(300, poses([2.0, 2.0], 0.0, 1e-3))), Flag::Raised);
+    }
+
     #[test]
     fn poses_that_were_seen_make_no_decision() {
         let promise = FalseAlarms::per_hour(0.36).unwrap();

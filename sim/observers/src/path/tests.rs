@@ -150,6 +150,17 @@ fn a_robot_that_is_told_to_stand_makes_no_progress_and_no_alarm() {
 }
 
 #[test]
+fn an_old_motion_counts_once() {
+    let times = [Millis(100), Millis(1_000)];
+    let mut observer = Coherence::new([0.3, 1.7], [0.02, 0.05], times, promise(0.1)).unwrap();
+    let value = Motion { told: [0.3, 0.0], measured: [0.3, 5.0] };
+    for _ in 0..100 {
+        assert_eq!(observer.observe(Some(Sensed { taken: Millis(0), value })), Flag::Clear);
+    }
+    assert_eq!(observer.observe(None), Flag::Missing);
+}
+
+#[test]
 fn a_wheel_that_turns_the_robot_aside_is_no_motion_that_was_told() {
     let times = [Millis(100), Millis(1_000)];
     let mut observer = Coherence::new([0.3, 1.7], [0.02, 0.05], times, promise(0.1)).unwrap();

@@ -202,3 +202,28 @@ impl Mean {
         Filter { state: self.at + aside, covariance }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In an even turn all readings are known, those of either side by themselves.
+    #[test]
+    fn readings_without_noise_are_no_news_to_the_nominal_filter() {
+        let settings = WheelSettings::pioneer();
+        let commanded = [1.23, 2.87];
+        let wheels = Wheels {
+            dt: 0.1,
+            commanded,
+            encoder: commanded,
+            current: commanded.map(|it| settings.friction(it)[0]),
+            gyro: Some(settings.turn * (2.87 - 1.23)),
+        };
+        let (mut filter, mut last) = (Filter::new(), [1.0; READINGS]);
+        for _ in 0..100 {
+            let period = Period::of(&settings, &wheels);
+            last = filter.step(Mode::Nominal, &settings, &period, &wheels).1;
+        }
+        assert!(last.iter().all(|it| it.abs() < 1e-6), "{last:?}");
+    }
+}

@@ -233,6 +233,16 @@ mod tests {
     }
 
     #[test]
+    fn a_level_is_one_of_odds_not_of_a_probability() {
+        let rates = WheelRates { faults_per_hour: 1.0, ..WheelRates::rare(0.036).unwrap() };
+        let mut observer = WheelObserver::new(WheelSettings::pioneer(), rates).unwrap();
+        assert_eq!(format!("{:.4}", observer.level().0), "0.9653"); // odds of 27.8
+        after(&mut observer, DRIVES, 20);
+        let dead = Wheels { encoder: [0.0, 2.05], ..DRIVES };
+        assert_eq!(after(&mut observer, dead, 5), Flag::Raised);
+    }
+
+    #[test]
     fn a_robot_that_stands_tells_nothing() {
         let mut observer = observer();
         let before = observer.clone();
