@@ -87,7 +87,8 @@ impl Filter {
 /// A bank of filters, one of each model: interacting multiple models (Blom and Bar-Shalom, IEEE
 /// Transactions on Automatic Control 33(8), 1988). COTAMA names a bank of filters that do not
 /// exchange their states (Roumeliotis, Sukhatme, Bekey, ICRA 1998; Magill, IEEE Transactions on
-/// Automatic Control 10(4), 1965): that finds faults as soon, and sees their end later.
+/// Automatic Control 10(4), 1965): that finds faults as soon, and sees 0.1 to 0.4 s later that a
+/// weak motor or a blocked wheel is sound again.
 ///
 /// In each period a sound robot breaks with a small chance, equally likely in each way, and a
 /// broken one is sound again with another. Before a period each filter begins at the mean of the

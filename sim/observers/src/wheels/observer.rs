@@ -81,8 +81,8 @@ const HEALS: f64 = 0.02;
 /// | slip (100 runs) | 100, 0.3 s | 100, 0.3 s | 100, 0.3 s | 100, 0.3 s | 0.1 to 0.2 s |
 ///
 /// Of 400 runs of each mode, 26 of 800 lossy encoders were told by no name, and one weak motor by
-/// that of a lossy encoder; all others by their own. Small faults are missed: an encoder that loses
-/// 5 % at 0.1 m/s. Sums find nearly all of these too, within 0.6 s.
+/// that of a lossy encoder; all others by their own. Those that were missed lose 5 to 7 % at wheel
+/// speeds near 1 rad/s. Sums find nearly all of these too, within 0.6 s.
 ///
 /// | a sound robot, 300,000 periods, 10⁻⁴ promised | models | sums |
 /// | --- | --- | --- |
