@@ -62,9 +62,11 @@ fn described(page: &str, heading: &str) -> BTreeSet<String> {
 }
 
 /// The tables of a robot's file, where they stand in the schema, and the lines that begin them.
-const ROBOT_TABLES: [(&str, &str, &str); 14] = [
+const ROBOT_TABLES: [(&str, &str, &str); 16] = [
     ("the file", "", "format = \"cotama-robot/1\""),
     ("[body]", "/properties/body", "[body]"),
+    ("[body.motors]", "/properties/body/properties/motors", "[body.motors]"),
+    ("[body.battery]", "/properties/body/properties/battery", "[body.battery]"),
     ("[hardware.NAME]", "/properties/hardware/additionalProperties", "[hardware.base]"),
     ("[module.NAME]", "/properties/module/additionalProperties", "[module.scan]"),
     (
@@ -96,7 +98,11 @@ fn the_page_of_robots_agrees_with_the_schema_and_the_reader() {
     let tables = "[failure.set]\nspeed_permille = 600\n[failure.restart]\n\
         module = \"scan\"\ntimes = 1\n\
         [failure.ask]\ntimes = 1\n[failure.mask]\nflags = [\"x\"]\n\
-        [module.scan.parameter.n]\ndefault = 1\n[supervisors]\nlocal = \"x.json\"\n";
+        [module.scan.parameter.n]\ndefault = 1\n[supervisors]\nlocal = \"x.json\"\n\
+        [body.motors]\nvoltage_mv = 24_000\nno_load_mrad_s = 24_000\nresistance_mohm = 200\n\
+        limit_ma = 40_000\nrolling_permille = 20\nstall_ms = 100\n\
+        [body.battery]\ncapacity_mah = 60_000\nfull_mv = 26_000\nempty_mv = 22_200\n\
+        cutoff_mv = 22_000\nresistance_mohm = 10\ncells = 12\n";
     let cart = cart.replace(inline, tables);
     let schema = schema("robot");
     let mut wrong = Vec::new();

@@ -3,10 +3,10 @@
 use super::DRAFT;
 use super::parts::{choice, flag, id, integer, named, table, tables, text, with, word};
 use cotama_models::robots::known::{
-    ASKS, AXLES, BODY_SPEEDS, COEFFICIENTS, COSTS, COUNTS, ERRORS, FORMAT, HOLDS, MASKS,
-    MAX_PARAMETERS, MODES, MOTIONS, PERIODS, PERSISTENCES, POSITIVE, POWERS, RADII, RANKS,
-    RESTARTS, SETTINGS, SEVERITIES, SLOWED, SPEEDS, TIMES, TRIES, TURNS, UNITS, UNWATCHED, VALUES,
-    WHEELS,
+    ASKS, AXLES, BODY_SPEEDS, CELLS, CHARGES, COEFFICIENTS, COSTS, COUNTS, CURRENTS, ERRORS,
+    FORMAT, HOLDS, MASKS, MAX_PARAMETERS, MODES, MOTIONS, NO_LOADS, PERIODS, PERSISTENCES,
+    POSITIVE, POWERS, RADII, RANKS, RESISTANCES, RESTARTS, ROLLINGS, SETTINGS, SEVERITIES, SLOWED,
+    SPEEDS, TIMES, TRIES, TURNS, UNITS, UNWATCHED, VALUES, VOLTAGES, WHEELS,
 };
 use cotama_models::robots::{MAX_CONFIGURATIONS, MAX_FAILURES, MAX_FLAGS, MAX_PARTS};
 use serde_json::{Value, json};
@@ -85,8 +85,42 @@ fn body() -> Value {
         ("axle_error_ppm", integer(&ERRORS, "error of the distance, in millionths; 0")),
     ];
     let wheels = table(&[], &wheels, "two driven wheels on one axle, for runs in the plane");
-    let can = [&can[..], &[("wheels", wheels)]].concat();
+    let powered = [("wheels", wheels), ("motors", motors()), ("battery", battery())];
+    let can = [&can[..], &powered].concat();
     table(&needs, &can, "how it moves; missions need it")
+}
+
+fn motors() -> Value {
+    let needs = [
+        ("voltage_mv", integer(&VOLTAGES, "the voltage for which they are made, in mV")),
+        (
+            "no_load_mrad_s",
+            integer(&NO_LOADS, "how fast a wheel turns at it without load, in mrad/s"),
+        ),
+        ("resistance_mohm", integer(&RESISTANCES, "resistance of a winding, in mΩ")),
+        ("limit_ma", integer(&CURRENTS, "the current that a motor never exceeds, in mA")),
+        (
+            "rolling_permille",
+            integer(&ROLLINGS, "the force that rolling takes, in thousandths of its weight"),
+        ),
+        (
+            "stall_ms",
+            integer(&TIMES, "how long a wheel is held before its motor is stalled, in ms"),
+        ),
+    ];
+    table(&needs, &[], "a motor on each wheel, with its gear, for runs in the plane")
+}
+
+fn battery() -> Value {
+    let needs = [
+        ("capacity_mah", integer(&CHARGES, "its charge when it is full, in mAh")),
+        ("full_mv", integer(&VOLTAGES, "its voltage without load when it is full, in mV")),
+        ("empty_mv", integer(&VOLTAGES, "the same when it is empty, in mV")),
+        ("cutoff_mv", integer(&VOLTAGES, "the robot goes off below this voltage, in mV")),
+        ("resistance_mohm", integer(&RESISTANCES, "internal resistance, in mΩ")),
+        ("cells", integer(&CELLS, "cells in series")),
+    ];
+    table(&needs, &[], "what feeds motors and hardware, for runs in the plane")
 }
 
 fn hardware() -> Value {

@@ -63,6 +63,20 @@ pub const TURNS: RangeInclusive<i64> = 1..=20_000;
 pub const COUNTS: RangeInclusive<i64> = 1..=10_000_000;
 /// Errors of wheels in millionths.
 pub const ERRORS: RangeInclusive<i64> = -100_000..=100_000;
+/// Voltages of motors and batteries in mV.
+pub const VOLTAGES: RangeInclusive<i64> = 1_000..=1_000_000;
+/// Resistances in mΩ.
+pub const RESISTANCES: RangeInclusive<i64> = 1..=1_000_000;
+/// Currents of motors in mA.
+pub const CURRENTS: RangeInclusive<i64> = 1..=1_000_000;
+/// How fast wheels turn without a load, in thousandths of rad/s.
+pub const NO_LOADS: RangeInclusive<i64> = 100..=1_000_000;
+/// Forces of rolling in thousandths of a weight.
+pub const ROLLINGS: RangeInclusive<i64> = 0..=1_000;
+/// Charges of batteries in mAh.
+pub const CHARGES: RangeInclusive<i64> = 1..=10_000_000;
+/// Cells in series.
+pub const CELLS: RangeInclusive<i64> = 1..=1_000;
 /// Thousandths of the commanded speed that are left.
 pub const SLOWED: RangeInclusive<i64> = 1..=999;
 /// Effects of failures on motion, with their names.

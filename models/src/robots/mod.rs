@@ -64,6 +64,7 @@ mod in_time;
 pub mod known;
 mod losses;
 mod masking;
+mod powered;
 mod printed;
 mod reached;
 mod reaction;
@@ -88,6 +89,7 @@ pub use file::RobotFile;
 pub use fired::{Fired, fired, name_of};
 pub use known::FORMAT;
 pub use losses::{Loss, Losses, Report};
+pub use powered::{Battery, Motors};
 pub use printed::to_rust;
 pub use reaction::{Mask, Try};
 pub use response::{ADAPTS_IN, ASKS_IN, ENDS_IN, KNOWN_IN};
@@ -151,6 +153,10 @@ pub struct Body {
     pub impact: Option<(u64, u64)>,
     /// Its wheels.
     pub wheels: Wheels,
+    /// Their motors; `None` where nothing is known of them.
+    pub motors: Option<Motors>,
+    /// Its battery; `None` where nothing is known of it.
+    pub battery: Option<Battery>,
     /// Source of what is said of it; may be empty.
     pub source: String,
 }

@@ -1,5 +1,7 @@
 //! The wheels of a robot, and the shape that they carry.
 
+use crate::battery::Battery;
+use crate::motors::Motors;
 use cotama_floor::Footprint;
 use cotama_models::robots::{Body, Wheels};
 
@@ -32,6 +34,10 @@ pub struct Drivetrain {
     pub counts: f64,
     /// The shape that must not touch anything.
     pub footprint: Footprint,
+    /// The motors, where they are known.
+    pub motors: Option<Motors>,
+    /// The battery, full, where it is known.
+    pub battery: Option<Battery>,
 }
 
 /// The room that paths have to spare, in metres: they keep the radius of the body from all things,
@@ -54,6 +60,8 @@ impl Drivetrain {
             real: errors_ppm.map(|it| 1.0 + f64::from(it) / 1e6),
             counts: counts as f64,
             footprint: Footprint::disc((milli(body.radius.0) - SPARE).max(0.001)),
+            motors: body.motors.as_ref().map(Motors::of),
+            battery: body.battery.as_ref().map(Battery::of),
         }
     }
 }

@@ -19,21 +19,30 @@
 //! ```
 #![allow(clippy::cast_precision_loss)] // lengths and times of a mission are below 2^53
 
+mod active;
+mod battery;
 pub mod corridors;
 mod course;
+mod drive;
 mod drivetrain;
+mod fault;
 mod follower;
+mod motors;
 mod odometry;
 mod rover;
 mod track;
 mod vehicle;
 
+pub use battery::Battery;
 pub use cotama_devices::Disc;
 pub use cotama_floor::Pose;
 pub use course::{Course, NoCourse};
+pub use drive::{BatterySignals, MotorSignals, Signals};
 pub use drivetrain::Drivetrain;
+pub use fault::{Defect, DriveFault, Side, Slip};
 pub use follower::Follower;
+pub use motors::Motors;
 pub use odometry::Odometry;
 pub use rover::Rover;
 pub use track::{Corner, Near, Track};
-pub use vehicle::{Command, Vehicle};
+pub use vehicle::{Command, Effect, Step, Vehicle};

@@ -1,12 +1,14 @@
 //! A robot on the path of its mission.
 
 use crate::course::Course;
+use crate::drive::{Drive, Signals};
+use crate::fault::DriveFault;
 use crate::follower::{Follower, STEP};
 use crate::odometry::Odometry;
 use crate::track::Near;
 use crate::vehicle::{Command, Vehicle};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
-use cotama_devices::{Disc, People};
+use cotama_devices::{Disc, People, SettingsError};
 use cotama_floor::Pose;
 
 /// A robot that follows the path of its mission, and knows where it is.
@@ -14,6 +16,8 @@ use cotama_floor::Pose;
 pub struct Rover<'c> {
     course: &'c Course,
     vehicle: Vehicle,
+    drive: Drive,
+    seed: u64,
     odometry: Odometry,
     follower: Follower,
     /// How far it has come along its path.
@@ -58,6 +62,8 @@ impl<'c> Rover<'c> {
         Self {
             course,
             vehicle: Vehicle::new(start),
+            drive: Drive::new(course.drivetrain()),
+            seed,
             odometry: Odometry::new(start),
             follower: Follower::new(Near { piece: 0, along: 0.0 }),
             x: Millimetres(0),
@@ -93,6 +99,34 @@ impl<'c> Rover<'c> {
     /// Returns the pose that its encoders tell.
     pub const fn odometry(&self) -> &Pose {
         self.odometry.pose()
+    }
+
+    /// Returns the signals of motors, encoders and the battery.
+    pub fn signals(&self) -> Signals {
+        self.drive.signals(self.vehicle.counts(self.course.drivetrain()))
+    }
+
+    /// Gives faults to the drive in place of those that it has; their times count from the start.
+    ///
+    /// # Errors
+    /// More than [`MAX_FAULTS`](cotama_devices::MAX_FAULTS).
+    pub fn set_drive_faults(&mut self, faults: &[DriveFault]) -> Result<(), SettingsError> {
+        self.drive.set_faults(faults, self.seed)
+    }
+
+    /// Feeds hardware with so many W from now on, beside the motors.
+    pub fn power_hardware(&mut self, watts: f64) {
+        self.drive.power_hardware(watts);
+    }
+
+    /// Carries so many kg from now on.
+    pub fn carry(&mut self, payload: f64) {
+        self.drive.carry(payload);
+    }
+
+    /// Charges the battery to a part, from 0 to 1.
+    pub fn charge(&mut self, part: f64) {
+        self.drive.charge(part);
     }
 
     /// Whether it moved in the last period, also on the spot.
@@ -139,11 +173,12 @@ impl<'c> Rover<'c> {
         let towards = towards.0 as f64 / 1_000.0;
         let towards = if self.people.is_some() { self.among_people(towards) } else { towards };
         let on_path = self.aside == Aside::No && self.owed.0 == 0;
-        if end.0 <= self.x.0 && on_path {
+        let mut steps = time.0.div_ceil(10);
+        if self.drive.is_off() || (end.0 <= self.x.0 && on_path) {
             self.vehicle.stand();
+            self.drive.rested(self.vehicle.pose().translation.vector.into(), steps);
             return;
         }
-        let mut steps = time.0.div_ceil(10);
         while steps > 0 {
             steps -= self.step(towards, end, steps);
         }
@@ -199,9 +234,12 @@ impl<'c> Rover<'c> {
         let pose = *self.vehicle.pose();
         let (command, same) = self.follower.command(track, &pose, now, drivetrain, speed, goal);
         let all = STEP * most as f64;
-        let even = now == command && same > now.speed * all;
+        let even = self.drive.is_sound() && now == command && same > now.speed * all;
         let (steps, time) = if even { (most, all) } else { (1, STEP) };
-        self.vehicle.step(drivetrain, course.surface(), command, time);
+        let effect = self.drive.effect(pose.translation.vector.into());
+        let surface = course.surface();
+        let step = self.vehicle.step_under(drivetrain, surface, command, time, &effect);
+        self.drive.took(&step, steps);
         self.touches |= self.vehicle.touches();
         self.moved |= *self.vehicle.pose() != pose;
         self.follower.see(track, self.vehicle.pose());

@@ -12,6 +12,37 @@ pub struct Command {
     pub turn: f64,
 }
 
+/// What faults and the supply make of the speeds of the wheels, left and right, in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effect {
+    /// The part of the speed told with which a wheel turns.
+    pub turns: [f64; 2],
+    /// The fastest that wheels turn, in rad/s; at least 0.
+    pub most: f64,
+    /// The part of a wheel's way that the robot goes.
+    pub grips: [f64; 2],
+    /// The part of a wheel's way that its encoder counts.
+    pub reads: [f64; 2],
+}
+
+impl Default for Effect {
+    /// No effect.
+    fn default() -> Self {
+        Self { turns: [1.0; 2], most: f64::INFINITY, grips: [1.0; 2], reads: [1.0; 2] }
+    }
+}
+
+/// A step of the wheels, left and right.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Step {
+    /// The mean speeds that they were told, in rad/s.
+    pub told: [f64; 2],
+    /// Those that they had.
+    pub turned: [f64; 2],
+    /// How fast the speeds of the robot were to change, in m/s² and rad/s².
+    pub gained: Command,
+}
+
 /// A robot in the plane.
 ///
 /// ```
@@ -34,7 +65,7 @@ pub struct Command {
 pub struct Vehicle {
     pose: Pose,
     now: Command,
-    /// The angles that the wheels have turned, left and right.
+    /// The angles of the wheels that the encoders have counted, left and right.
     wheels: [f64; 2],
     /// How far the centre can still go before anything is so near that it could touch it.
     room: f64,
@@ -91,6 +122,19 @@ impl Vehicle {
         command: Command,
         time: f64,
     ) {
+        self.step_under(drivetrain, surface, command, time, &Effect::default());
+    }
+
+    /// Goes on as [`Vehicle::step`] does, under the effect of faults and of the supply; returns what
+    /// the wheels did.
+    pub fn step_under(
+        &mut self,
+        drivetrain: &Drivetrain,
+        surface: &dyn Surface,
+        command: Command,
+        time: f64,
+        effect: &Effect,
+    ) -> Step {
         let Drivetrain { speed, acceleration, turn, turn_acceleration, wheel, axle, .. } =
             *drivetrain;
         let before = self.now;
@@ -103,21 +147,29 @@ impl Vehicle {
             turn: f64::midpoint(before.turn, self.now.turn),
         };
         self.touches = false;
-        if mean == Command::default() {
-            return;
+        if mean == Command::default() || time <= 0.0 {
+            return Step::default();
         }
-        let angles = [-0.5, 0.5].map(|side| (mean.speed + side * mean.turn * axle) / wheel * time);
+        let gained = Command {
+            speed: (self.now.speed - before.speed) / time,
+            turn: (self.now.turn - before.turn) / time,
+        };
+        let Effect { turns, most, grips, reads } = *effect;
+        let told = [-0.5, 0.5].map(|side| (mean.speed + side * mean.turn * axle) / wheel);
+        let rates = [told[0] * turns[0], told[1] * turns[1]].map(|it| it.max(-most).min(most));
+        let angles = rates.map(|it| it * time);
         let [left, right, between] = drivetrain.real;
-        let ways = [angles[0] * wheel * left, angles[1] * wheel * right];
+        let ways = [angles[0] * wheel * left * grips[0], angles[1] * wheel * right * grips[1]];
         let way = f64::midpoint(ways[0], ways[1]);
         let part = self.go(drivetrain, surface, way, (ways[1] - ways[0]) / (axle * between));
-        for (wheel, angle) in self.wheels.iter_mut().zip(angles) {
-            *wheel += angle * part;
+        for ((wheel, angle), read) in self.wheels.iter_mut().zip(angles).zip(reads) {
+            *wheel += angle * part * read;
         }
         if part < 1.0 {
             self.touches = true;
             self.stand();
         }
+        Step { told, turned: rates.map(|it| it * part), gained }
     }
 
     /// Goes an arc, as far as nothing is in the way; returns the part that it went.

@@ -3,10 +3,10 @@
 use crate::missions::reader::fields::Fields;
 use crate::missions::{Diagnostic, MotionPower, harmless_speed};
 use crate::robots::known::{
-    AXLES, BODY_SPEEDS, COEFFICIENTS, COUNTS, ERRORS, MOTIONS, PERIODS, POSITIVE, RADII, SLOWED,
-    TURNS, WHEELS,
+    AXLES, BODY_SPEEDS, CELLS, CHARGES, COEFFICIENTS, COUNTS, CURRENTS, ERRORS, MOTIONS, NO_LOADS,
+    PERIODS, POSITIVE, RADII, RESISTANCES, ROLLINGS, SLOWED, TIMES, TURNS, VOLTAGES, WHEELS,
 };
-use crate::robots::{Body, Motion, Wheels};
+use crate::robots::{Battery, Body, Motion, Motors, Wheels};
 use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis};
 
 /// The period of a control loop where nothing is said (stated of the delivery: below 0.1 s).
@@ -31,10 +31,20 @@ pub(super) fn body(mut fields: Fields<'_>) -> Option<Body> {
         Ok(it) => it.map_or(Some(Wheels::default()), wheels),
         Err(_) => None,
     };
+    let motors = fields.optional_table("motors");
+    let battery = match fields.optional_table("battery") {
+        Ok(it) => it.map_or(Some(None), |it| battery(it).map(Some)),
+        Err(_) => None,
+    };
     let mass = fields.optional_integer::<u64>("mass_g", POSITIVE);
     let energy = fields.optional_integer::<u64>("impact_energy_max_mj", POSITIVE);
     let source = super::words(&mut fields, "source");
-    let impact = match (mass.ok()?, energy.ok()?) {
+    let (mass, energy) = (mass.ok()?, energy.ok()?);
+    let motors = match motors {
+        Ok(it) => it.map_or(Some(None), |it| motors_of(it, mass).map(Some)),
+        Err(_) => None,
+    };
+    let impact = match (mass, energy) {
         (Some(mass), Some(energy)) => Some((mass, energy)),
         (None | Some(_), None) => None,
         (None, Some(_)) => {
@@ -59,7 +69,59 @@ pub(super) fn body(mut fields: Fields<'_>) -> Option<Body> {
         motion_power: motion_power?,
         impact,
         wheels: wheels?,
+        motors: motors?,
+        battery: battery?,
         source,
+    })
+}
+
+/// Reads the motors, which move a mass.
+fn motors_of(mut fields: Fields<'_>, mass: Option<u64>) -> Option<Motors> {
+    let voltage = fields.integer("voltage_mv", VOLTAGES);
+    let no_load = fields.integer("no_load_mrad_s", NO_LOADS);
+    let resistance = fields.integer("resistance_mohm", RESISTANCES);
+    let limit = fields.integer("limit_ma", CURRENTS);
+    let rolling = fields.integer("rolling_permille", ROLLINGS);
+    let stall = fields.integer("stall_ms", TIMES).map(Millis);
+    if mass.is_none() {
+        let it = Diagnostic::new(fields.whole(), "motors move a mass", "no `mass_g` in `body`");
+        fields.report(it.help("add `mass_g` to `body`, or leave its `motors` out"));
+    }
+    fields.finish();
+    Some(Motors {
+        voltage_mv: voltage?,
+        no_load_mrad_s: no_load?,
+        resistance_mohm: resistance?,
+        limit_ma: limit?,
+        rolling_permille: rolling?,
+        mass_g: mass?,
+        stall: stall?,
+    })
+}
+
+/// Reads the battery; its voltages fall from full to empty, and the robot is on when it is full.
+fn battery(mut fields: Fields<'_>) -> Option<Battery> {
+    let capacity = fields.integer("capacity_mah", CHARGES);
+    let full = fields.integer::<u64>("full_mv", VOLTAGES);
+    let empty = fields.integer::<u64>("empty_mv", VOLTAGES);
+    let cutoff = fields.integer::<u64>("cutoff_mv", VOLTAGES);
+    let resistance = fields.integer("resistance_mohm", RESISTANCES);
+    let cells = fields.integer("cells", CELLS);
+    for (key, it) in [("empty_mv", empty), ("cutoff_mv", cutoff)] {
+        if it.zip(full).is_some_and(|(it, full)| it >= full) {
+            let message = format!("`{key}` must be below `full_mv`");
+            let it = Diagnostic::new(fields.span_of(key), message, "too high");
+            fields.report(it.help("give a lower voltage, or a higher `full_mv`"));
+        }
+    }
+    fields.finish();
+    Some(Battery {
+        capacity_mah: capacity?,
+        full_mv: full?,
+        empty_mv: empty?,
+        cutoff_mv: cutoff?,
+        resistance_mohm: resistance?,
+        cells: cells?,
     })
 }
 
