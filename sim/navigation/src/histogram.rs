@@ -92,7 +92,7 @@ impl Histogram {
         Choice::Stand
     }
 
-    /// Makes the histogram: Equations 1 to 6 there. Things beyond the target do not count.
+    /// Makes the histogram. Things beyond the target do not count.
     fn fill(&mut self, map: &LocalMap, target_m: f64) {
         self.magnitudes = [0.0; SECTORS];
         let size = self.braking.radius_m + self.braking.margin_m + SPARE_M;
@@ -125,7 +125,7 @@ impl Histogram {
     }
 
     /// Returns the way of least cost: the middle of a narrow opening; of a wide one, its sides and,
-    /// if it lies within, the target (Equations 8 to 10 there).
+    /// if it lies within, the target.
     fn way(&mut self, target: f64) -> Option<f64> {
         let blocked = |at: usize| self.is_blocked.get(at % SECTORS).copied().unwrap_or(false);
         let mut best: Option<(f64, f64)> = None;

@@ -73,7 +73,7 @@ struct Line {
 /// Samples are uniform over the floor; those within a radius are neighbours. Nothing is checked
 /// before A* finds a way of unknown parts; then its samples, and if they are free its lines, from
 /// both ends inwards. What is blocked leaves the roadmap, and A* begins again. What was checked
-/// stays known for the next question. The enhancement of the roadmap (there, Section 3.4) is left
+/// stays known for the next question. The enhancement of the roadmap is left
 /// out: without a way in it, the answer is [`NoWay::InRoadmap`].
 ///
 /// A way that is found is free: at each of its points a disc of the radius finds room. The same
