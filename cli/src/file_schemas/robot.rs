@@ -1,13 +1,14 @@
 //! The schema of a robot's file.
 
 use super::DRAFT;
-use super::parts::{choice, flag, id, integer, named, table, tables, text, with, word};
+use super::parts::{choice, choices, flag, id, integer, named, table, tables, text, with, word};
 use cotama_models::robots::known::{
     ASKS, AXLES, BODY_SPEEDS, CELLS, CHARGES, COEFFICIENTS, COSTS, COUNTS, CURRENTS, ERRORS,
-    FORMAT, HOLDS, MASKS, MAX_PARAMETERS, MODES, MOTIONS, NO_LOADS, PERIODS, PERSISTENCES,
-    POSITIVE, POWERS, RADII, RANKS, RESISTANCES, RESTARTS, ROLLINGS, SETTINGS, SEVERITIES, SLOWED,
-    SPEEDS, TIMES, TRIES, TURNS, UNITS, UNWATCHED, VALUES, VOLTAGES, WHEELS,
+    FORMAT, HARM_UNITS, HARMED, HOLDS, MASKS, MAX_PARAMETERS, MODES, MOTIONS, NO_LOADS, PERIODS,
+    PERSISTENCES, POSITIVE, POWERS, RADII, RANKS, RESISTANCES, RESTARTS, ROLLINGS, SETTINGS,
+    SEVERITIES, SLOWED, SPEEDS, TIMES, TRIES, TURNS, UNITS, UNWATCHED, VALUES, VOLTAGES, WHEELS,
 };
+use cotama_models::robots::signals::{HARMS, ROLES, TOLD, WATCHES};
 use cotama_models::robots::{MAX_CONFIGURATIONS, MAX_FAILURES, MAX_FLAGS, MAX_PARTS};
 use serde_json::{Value, json};
 
@@ -157,15 +158,19 @@ fn module() -> Value {
         ),
         ("parameter", parameters),
         ("serves", text("the option of missions that needs it")),
+        ("roles", choices(&ROLES.map(|it| it.0), "the algorithms that it runs in the plane")),
     ];
     table(&[], &can, "a program")
 }
 
 fn observer() -> Value {
     let flags = with(names("the flags that it raises"), "maxItems", MAX_FLAGS.into());
+    let signals: Vec<_> = WATCHES.iter().map(|it| it.0).chain([TOLD]).collect();
+    let signals = choices(&signals, "the signal in the plane of each flag; all are told");
     let can = [
         ("title", text("what it looks at")),
         ("needs", names("hardware and modules without which it sees nothing")),
+        ("watches", signals),
         (
             "unwatched",
             choice(
@@ -249,6 +254,12 @@ fn failure() -> Value {
         ("severity", severity),
     ];
     let motions = MOTIONS.map(|it| it.0);
+    let harms = HARMS.map(|it| it.0);
+    let is = [("is", choice(&harms, "what happens to the device"))];
+    let harm = [
+        ("unit", integer(&HARM_UNITS, "the sonar; or the side, 0 left, 1 right; 0")),
+        ("permille", integer(&HARMED, "the part that is lost, in thousandths; 500")),
+    ];
     let can = [
         ("function", text("the function that is lost")),
         ("item", text("the part that fails")),
@@ -263,6 +274,7 @@ fn failure() -> Value {
         ("loses", names("hardware and modules that are lost with it")),
         ("motion", choice(&motions, "what it does to the motion of a mission")),
         ("slowed_permille", integer(&SLOWED, "or the part of the speed that it leaves")),
+        ("harm", table(&is, &harm, "what it does to a device in the plane")),
         ("ends_ms", integer(&TIMES, "after so long it is over, in ms")),
         ("helped", flag("whether it is over when the operator has helped")),
         ("no_plan", flag("whether it is that no plan keeps the limits of the mission")),

@@ -73,6 +73,7 @@ pub mod requirements;
 mod response;
 mod script;
 mod settings;
+pub mod signals;
 mod sound;
 pub mod supervisors;
 mod tables;
@@ -95,6 +96,7 @@ pub use reaction::{Mask, Try};
 pub use response::{ADAPTS_IN, ASKS_IN, ENDS_IN, KNOWN_IN};
 pub use script::{Answer, Incident, IncidentKind, Moment};
 pub use settings::{Parameter, Setting, Value};
+pub use signals::{Harm, Harmed, Role, Watch};
 pub use tables::OwnedTables;
 
 use crate::missions::MotionPower;
@@ -263,6 +265,8 @@ pub struct Module {
     pub parameters: Vec<Parameter>,
     /// The option of missions that it serves, by its id; may be empty.
     pub serves: String,
+    /// The algorithms that it runs in the plane.
+    pub roles: Vec<Role>,
     /// Source of what is said of it; may be empty.
     pub source: String,
 }
@@ -310,6 +314,8 @@ pub struct Observer {
     pub needs: Parts,
     /// The flags that it raises.
     pub flags: Vec<String>,
+    /// The signal of each flag, where it has one in the plane; of no flag, or of all.
+    pub watches: Vec<Option<Watch>>,
     /// Whether what it alone watches counts as lost while it sees nothing.
     pub closes: bool,
 }
@@ -347,6 +353,8 @@ pub struct Failure {
     pub loses: Parts,
     /// The effect on motion.
     pub motion: Motion,
+    /// The harm that it does in the plane; `None` where only its flags can be told.
+    pub harm: Option<Harmed>,
     /// When it is over by itself; `None` where it is not.
     pub ends: Option<Millis>,
     /// Whether it is over when the operator has helped.

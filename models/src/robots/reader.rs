@@ -4,6 +4,7 @@ mod body;
 mod failures;
 mod reactions;
 mod settings;
+mod signals;
 
 use super::in_time;
 use super::known::{COSTS, FORMAT, MODES, POWERS, RANKS, SPEEDS, TIMES, UNITS, UNWATCHED};
@@ -293,6 +294,7 @@ fn module((name, fields): Named<'_>, names: &Names) -> Option<Module> {
     let priority = fields.optional_integer("priority", RANKS);
     let parameters = settings::parameters(&mut fields);
     let serves = words(&mut fields, "serves");
+    let roles = signals::roles(&mut fields);
     let source = words(&mut fields, "source");
     let (deadline, period) = (deadline.ok()?.map(Millis), period.ok()?.map(Millis));
     let cost = cost.ok()?.map(Micros);
@@ -313,6 +315,7 @@ fn module((name, fields): Named<'_>, names: &Names) -> Option<Module> {
         priority: priority.ok()?.unwrap_or(u8::MAX),
         parameters: parameters?,
         serves,
+        roles: roles?,
         source,
     })
 }
@@ -336,6 +339,7 @@ fn observer((name, fields): Named<'_>, names: &mut Names) -> Option<Observer> {
         names.at.flags.push(it.span.clone());
     }
     let own = flags.as_ref().map_or(0, Vec::len);
+    let watches = signals::watches(&mut fields, own);
     if names.flags.len() > MAX_FLAGS && names.flags.len() - own <= MAX_FLAGS {
         let message = format!("a robot has at most {MAX_FLAGS} flags");
         let it = Diagnostic::new(fields.span_of("flags"), message, "too many");
@@ -351,7 +355,8 @@ fn observer((name, fields): Named<'_>, names: &mut Names) -> Option<Observer> {
     }
     fields.finish();
     let flags = flags?.into_iter().map(|it| it.value).collect();
-    Some(Observer { name: name.value, title, needs: needs?, flags, closes: closes? })
+    let watches = watches?;
+    Some(Observer { name: name.value, title, needs: needs?, flags, watches, closes: closes? })
 }
 
 fn operator(mut fields: Fields<'_>, names: &Names) -> Option<u64> {

@@ -96,6 +96,7 @@ fn failure(
         let it = Diagnostic::new(fields.span_of("motion"), message, "nobody stops it");
         fields.report(it.help("call it `fatal` in both modes, or name another motion"));
     }
+    let harm = super::signals::harm(&mut fields);
     let ends = fields.optional_integer("ends_ms", TIMES);
     let helped = fields.optional_flag("helped");
     let restarts = match fields.optional_table("restart") {
@@ -141,6 +142,7 @@ fn failure(
         latency: Millis(latency.ok()?.unwrap_or(0)),
         loses: loses?,
         motion: motion?,
+        harm: harm?,
         ends: ends.ok()?.map(Millis),
         helped: helped.ok()?.unwrap_or(false),
         no_plan: no_plan.ok()?.unwrap_or(false),

@@ -1,0 +1,44 @@
+//! Reading what a robot computes, watches and suffers in the plane.
+
+use crate::missions::Diagnostic;
+use crate::missions::reader::fields::Fields;
+use crate::robots::known::{HARM_UNITS, HARMED};
+use crate::robots::signals::{HARMS, Harmed, ROLES, Role, TOLD, WATCHES, Watch};
+
+/// The algorithms of a module.
+pub(super) fn roles(fields: &mut Fields<'_>) -> Option<Vec<Role>> {
+    let all = fields.optional_texts("roles").ok()?;
+    let known = || ROLES.iter().map(|it| it.0);
+    let all: Vec<_> = all.iter().map(|it| fields.index_of(it, "role", known())).collect();
+    let role = |it: usize| ROLES.get(it).map(|it| it.1);
+    all.into_iter().map(|it| it.and_then(role)).collect()
+}
+
+/// The signals of the flags of an observer: of none, or of each.
+pub(super) fn watches(fields: &mut Fields<'_>, flags: usize) -> Option<Vec<Option<Watch>>> {
+    let all = fields.optional_texts("watches").ok()?;
+    let known = || WATCHES.iter().map(|it| it.0).chain([TOLD]);
+    let read: Vec<_> = all.iter().map(|it| fields.index_of(it, "signal", known())).collect();
+    let read = read.into_iter().collect::<Option<Vec<_>>>()?;
+    if !read.is_empty() && read.len() != flags {
+        let (flags, signals) = (flags, read.len());
+        let message = format!("{flags} flags have {signals} signals");
+        let it = Diagnostic::new(fields.span_of("watches"), message, "not one for each");
+        fields.report(it.help(format!("write {TOLD:?} for a flag that no signal raises")));
+        return None;
+    }
+    Some(read.into_iter().map(|it| WATCHES.get(it).map(|it| it.1)).collect())
+}
+
+/// The harm of a failure.
+pub(super) fn harm(fields: &mut Fields<'_>) -> Option<Option<Harmed>> {
+    let Some(mut fields) = fields.optional_table("harm").ok()? else { return Some(None) };
+    let harm = fields.text("is");
+    let harm = harm.and_then(|it| fields.index_of(&it, "harm", HARMS.iter().map(|it| it.0)));
+    let unit = fields.optional_integer("unit", HARM_UNITS);
+    let permille = fields.optional_integer("permille", HARMED);
+    fields.finish();
+    let harm = HARMS.get(harm?)?.1;
+    let (unit, permille) = (unit.ok()?.unwrap_or(0), permille.ok()?.unwrap_or(500));
+    Some(Some(Harmed { harm, unit, permille }))
+}

@@ -1,0 +1,214 @@
+//! Parts of a robot in the plane where nothing is told: the algorithms that its modules run, the
+//! signals that its observers watch, and the harm that a failure does to a device.
+//!
+//! A robot's file names them in words; [`ROLES`], [`WATCHES`] and [`HARMS`] are these words.
+
+/// The algorithm that a module runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Role {
+    /// The pose by the counts of the encoders.
+    Odometry,
+    /// The pose in the map, by ranges.
+    Localisation,
+    /// Ranges made usable: a map of what is near.
+    Ranges,
+    /// A path over the floor.
+    Planning,
+    /// Speeds along a path.
+    Guidance,
+    /// Speeds that keep away from what is near.
+    Avoidance,
+    /// Images for the operator.
+    Images,
+    /// The link to the operator.
+    Link,
+}
+
+/// The signal that a flag is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Watch {
+    /// A sonar that reads its largest range for a long way (Durand et al., TAROS 2010, Section
+    /// VI.A.3).
+    LargestRange,
+    /// A sonar that reads the same short range for a long way.
+    ShortestRange,
+    /// Ranges that do not come.
+    NoRanges,
+    /// Encoders that count other than the motors make the wheels turn.
+    Encoders,
+    /// Wheels that slip.
+    Slip,
+    /// A motor that turns its wheel not at all.
+    NoTorque,
+    /// A motor that turns its wheel more slowly than it is told.
+    WeakTorque,
+    /// Odometry apart from localisation, by more than both allow for.
+    PoseApart,
+    /// Odometry that leaves localisation further with each metre.
+    PoseGrows,
+    /// Odometry that leaves localisation at once.
+    PosePeak,
+    /// Localisation that jumps.
+    PoseJumps,
+    /// Localisation that is spread.
+    PoseSpread,
+    /// Motion backwards for too long (Section VI.A.2).
+    Backward,
+    /// A path from which the robot stays away.
+    OffPath,
+    /// A path along which it gets no further.
+    NoProgress,
+    /// A level of the link that is low.
+    LinkLow,
+    /// A link that is silent.
+    LinkSilent,
+    /// The bumpers.
+    Bumper,
+    /// The bumpers, where ranges see nothing.
+    BumperAlone,
+    /// The stall bit of the motors.
+    Stall,
+    /// The voltage of the battery, near to its end.
+    VoltageLow,
+    /// The voltage of the battery, at its end.
+    VoltageCritical,
+    /// Packets of the micro-controller that do not come.
+    PacketSilence,
+    /// Packets of the micro-controller that are lost now and then.
+    PacketErrors,
+    /// Packets that begin anew.
+    PacketRestart,
+    /// Images that do not come.
+    NoImage,
+    /// Images that are old.
+    OldImage,
+}
+
+/// The harm that a failure does to a device or a module.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Harm {
+    /// A sonar reads its largest range.
+    SonarFar,
+    /// A sonar reads a short range.
+    SonarNear,
+    /// No sonar reads anything.
+    SonarSilent,
+    /// An encoder counts nothing.
+    EncoderDead,
+    /// An encoder loses a part of its counts.
+    EncoderLossy,
+    /// Both wheels slip for a part of their way.
+    WheelSlips,
+    /// No wheel turns, whatever its motor does.
+    WheelsStall,
+    /// A motor has less torque.
+    MotorWeak,
+    /// A motor has none.
+    MotorDead,
+    /// The bumpers are pressed.
+    BumperClosed,
+    /// The voltage of the battery is low.
+    BatteryLow,
+    /// The voltage of the battery is at its end.
+    BatteryCritical,
+    /// No packet of the micro-controller comes.
+    PacketsSilent,
+    /// Packets are lost.
+    PacketsLossy,
+    /// The micro-controller begins anew: its pose is zero.
+    PacketsRestart,
+    /// The camera gives no image.
+    CameraSilent,
+    /// The camera gives old images.
+    CameraLate,
+    /// The link is down.
+    LinkDown,
+    /// The link is weak.
+    LinkWeak,
+    /// Localisation is elsewhere.
+    PoseLost,
+    /// Something that is on no map stands in the way.
+    MapWrong,
+}
+
+/// A harm, and how much of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Harmed {
+    /// The harm.
+    pub harm: Harm,
+    /// The sonar, from 0 on, or the side: 0 is left, 1 is right.
+    pub unit: u8,
+    /// The part that is lost, in thousandths.
+    pub permille: u16,
+}
+
+/// Algorithms of modules, by their words.
+pub const ROLES: [(&str, Role); 8] = [
+    ("odometry", Role::Odometry),
+    ("localisation", Role::Localisation),
+    ("ranges", Role::Ranges),
+    ("planning", Role::Planning),
+    ("guidance", Role::Guidance),
+    ("avoidance", Role::Avoidance),
+    ("images", Role::Images),
+    ("link", Role::Link),
+];
+
+/// The word for a flag that is told in the plane too.
+pub const TOLD: &str = "told";
+
+/// Signals that flags are made of, by their words.
+pub const WATCHES: [(&str, Watch); 27] = [
+    ("largest range", Watch::LargestRange),
+    ("shortest range", Watch::ShortestRange),
+    ("no ranges", Watch::NoRanges),
+    ("encoders", Watch::Encoders),
+    ("slip", Watch::Slip),
+    ("no torque", Watch::NoTorque),
+    ("weak torque", Watch::WeakTorque),
+    ("pose apart", Watch::PoseApart),
+    ("pose grows", Watch::PoseGrows),
+    ("pose peak", Watch::PosePeak),
+    ("pose jumps", Watch::PoseJumps),
+    ("pose spread", Watch::PoseSpread),
+    ("backward", Watch::Backward),
+    ("off path", Watch::OffPath),
+    ("no progress", Watch::NoProgress),
+    ("link low", Watch::LinkLow),
+    ("link silent", Watch::LinkSilent),
+    ("bumper", Watch::Bumper),
+    ("bumper alone", Watch::BumperAlone),
+    ("stall", Watch::Stall),
+    ("voltage low", Watch::VoltageLow),
+    ("voltage critical", Watch::VoltageCritical),
+    ("packet silence", Watch::PacketSilence),
+    ("packet errors", Watch::PacketErrors),
+    ("packet restart", Watch::PacketRestart),
+    ("no image", Watch::NoImage),
+    ("old image", Watch::OldImage),
+];
+
+/// Harms of failures, by their words.
+pub const HARMS: [(&str, Harm); 21] = [
+    ("sonar far", Harm::SonarFar),
+    ("sonar near", Harm::SonarNear),
+    ("sonars silent", Harm::SonarSilent),
+    ("encoder dead", Harm::EncoderDead),
+    ("encoder lossy", Harm::EncoderLossy),
+    ("wheels slip", Harm::WheelSlips),
+    ("wheels stall", Harm::WheelsStall),
+    ("motor weak", Harm::MotorWeak),
+    ("motor dead", Harm::MotorDead),
+    ("bumper closed", Harm::BumperClosed),
+    ("battery low", Harm::BatteryLow),
+    ("battery critical", Harm::BatteryCritical),
+    ("packets silent", Harm::PacketsSilent),
+    ("packets lossy", Harm::PacketsLossy),
+    ("packets restart", Harm::PacketsRestart),
+    ("camera silent", Harm::CameraSilent),
+    ("camera late", Harm::CameraLate),
+    ("link down", Harm::LinkDown),
+    ("link weak", Harm::LinkWeak),
+    ("pose lost", Harm::PoseLost),
+    ("map wrong", Harm::MapWrong),
+];
