@@ -8,7 +8,7 @@ use crate::answers::conform::ConformAnswer;
 use crate::answers::error::ErrorAnswer;
 use crate::answers::estimate::EstimateAnswer;
 use crate::answers::floor::FloorAnswer;
-use crate::answers::fmeca::FmecaAnswer;
+use crate::answers::fmeca::{FmecaAnswer, MeasureAnswer};
 use crate::answers::model::{ModelsAnswer, SimulateAnswer};
 use crate::answers::new::NewAnswer;
 use crate::answers::team::TeamAnswer;
@@ -86,6 +86,7 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
         }
         SchemaName::Floor => schemas.into_root_schema_for::<FloorAnswer>(),
         SchemaName::Fmeca => schemas.into_root_schema_for::<FmecaAnswer>(),
+        SchemaName::Measure => schemas.into_root_schema_for::<MeasureAnswer>(),
         SchemaName::Campaign => schemas.into_root_schema_for::<CampaignAnswer>(),
         SchemaName::New => schemas.into_root_schema_for::<NewAnswer>(),
         SchemaName::Mission => return print(&file_schemas::mission()),

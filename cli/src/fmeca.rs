@@ -4,6 +4,7 @@ mod diagnosability;
 mod glossary;
 mod markdown;
 mod matrix;
+mod measured;
 mod page;
 mod rows;
 
@@ -28,6 +29,9 @@ const DEFAULT: &str = "p3dx-delivery";
 
 /// Shows the analysis, or writes it in a format.
 pub(crate) fn fmeca(args: &FmecaArgs, screen: &Screen) -> Result<Exit, Failure> {
+    if let Some(mission) = &args.measure {
+        return measured::measure(mission, args, screen);
+    }
     args.output.as_deref().map_or(Ok(()), output::place)?;
     let format = match (args.format, &args.output) {
         (Some(format), _) => Some(format),

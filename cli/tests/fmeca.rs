@@ -1,6 +1,7 @@
 //! `cotama fmeca`: what can fail, how it is seen, what is done, and what looks alike.
 
 use crate::common::{Folder, golden};
+use crate::schemas::validate;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
@@ -384,4 +385,22 @@ fn rows_of_a_table_become_those_of_a_robot() {
     let modes = analysis["rows"].as_array().unwrap();
     assert_eq!(modes[modes.len() - 1]["id"], "LID2");
     assert_eq!(folder.cotama(&["check", "cart.toml"]).code, Some(0));
+}
+
+#[test]
+fn detections_by_signals_are_measured_failure_by_failure() {
+    let folder = Folder::new("fmeca_measure");
+    let answer = folder.cotama(&["fmeca", "--measure", "delivery", "--seeds", "1", "--json"]);
+    let answer = answer.json(0);
+    validate("measure", &answer);
+    let rows = answer["rows"].as_array().unwrap();
+    let found = |id: &str| {
+        let row = rows.iter().find(|it| it["id"] == id).unwrap();
+        (row["found"].as_u64(), row["median_ms"].as_u64())
+    };
+    assert_eq!((rows.len(), found("SON2")), (21, (Some(1), Some(700))));
+    assert_eq!(found("SON1"), (Some(0), None)); // ahead in a corridor nothing is heard anyway
+    let plain = folder.cotama(&["fmeca", "--measure", "patrol"]);
+    assert_eq!(plain.code, Some(2));
+    assert!(plain.stderr.contains("names no robot"), "{}", plain.stderr);
 }

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
 
-const COMMANDS: [&str; 20] = [
+const COMMANDS: [&str; 21] = [
     "list",
     "plan",
     "run",
@@ -25,6 +25,7 @@ const COMMANDS: [&str; 20] = [
     "recording",
     "floor",
     "fmeca",
+    "measure",
     "campaign",
     "new",
     "error",

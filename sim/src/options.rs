@@ -2,7 +2,7 @@
 
 use cotama_core::monitor::Upward;
 use cotama_core::units::Millis;
-use cotama_models::missions::faults::Faults;
+use cotama_models::missions::faults::{FIDELITIES, Faults};
 use cotama_models::missions::{Definition, PlannedFor};
 use serde::{Deserialize, Serialize};
 
@@ -49,9 +49,19 @@ pub enum Fidelity {
     Line,
     /// Two wheels that follow the path over a floor, with a pose that is known.
     Plane,
+    /// The same by signals: the robot knows what its devices read, and flags come of signals.
+    Signal,
 }
 
 impl Fidelity {
+    /// All, in the order of their names in files.
+    pub const ALL: [Self; 3] = [Self::Line, Self::Plane, Self::Signal];
+
+    /// Returns the name in files: `line`, `plane`, `signal`.
+    pub fn name(self) -> &'static str {
+        FIDELITIES[self as usize % FIDELITIES.len()]
+    }
+
     /// Whether it is on a line, which files need not say.
     #[allow(clippy::trivially_copy_pass_by_ref)] // as serde asks
     pub fn is_line(&self) -> bool {

@@ -213,3 +213,52 @@ pub(crate) struct ProbeRow<'a> {
     /// The failure modes that it would show.
     pub(crate) shows: Vec<&'a str>,
 }
+
+/// How the signals of a robot in the plane detect its failures, one run a seed.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct MeasureAnswer {
+    #[schemars(extend("const" = "cotama/measure/1"))]
+    pub(crate) schema: &'static str,
+    pub(crate) mission: String,
+    pub(crate) robot: String,
+    /// Runs of each failure.
+    pub(crate) seeds: u64,
+    /// Where on its path the robot is when a failure happens.
+    pub(crate) x_mm: u64,
+    /// What is not found in this time counts as not found.
+    pub(crate) window_ms: u64,
+    /// One row for each failure that harms a device.
+    pub(crate) rows: Vec<MeasureRow>,
+    /// Failures that harm no device of the plane: their flags are told.
+    pub(crate) told: Vec<String>,
+}
+
+/// The detection of a failure.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct MeasureRow {
+    pub(crate) id: String,
+    pub(crate) failure: String,
+    /// Runs in which it happened.
+    pub(crate) runs: u64,
+    /// Runs in which something was diagnosed after it.
+    pub(crate) found: u64,
+    /// Runs in which it was among the rows that it was taken for.
+    pub(crate) named: u64,
+    /// The median delay of a detection; null where there was none.
+    pub(crate) median_ms: Option<u64>,
+    /// The longest delay.
+    pub(crate) worst_ms: Option<u64>,
+    /// The delay that the robot's file assumes.
+    pub(crate) assumed_ms: u64,
+    /// Runs in which a flag was raised before anything failed.
+    pub(crate) false_alarms: u64,
+    /// What it was taken for, and in how many runs.
+    pub(crate) taken_for: Vec<TakenRow>,
+}
+
+/// Rows of the FMECA that explain flags, and how often.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct TakenRow {
+    pub(crate) rows: Vec<String>,
+    pub(crate) runs: u64,
+}

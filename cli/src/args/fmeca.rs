@@ -1,6 +1,7 @@
 //! The command line of `cotama fmeca`.
 
 use super::Json;
+use super::number::whole;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -14,6 +15,7 @@ severity against occurrence. The tables: docs/dependability.md.
 Examples:
   $ cotama fmeca
   $ cotama fmeca --diagnosability
+  $ cotama fmeca --measure delivery --seeds 5               # detected by signals, in the plane
   $ cotama fmeca --format csv | head -1
   $ cotama fmeca --output fmeca.html                        # the format by the name of the file
   $ cotama fmeca --function localise --output localise.svg
@@ -40,6 +42,13 @@ pub(crate) struct FmecaArgs {
     /// Shows which failure modes cannot be told apart, and what would help
     #[arg(long)]
     pub(crate) diagnosability: bool,
+    /// Measures how signals detect the failures of this mission's robot, in place of showing them
+    #[arg(long, value_name = "MISSION", conflicts_with_all = ["file", "format", "output",
+        "function", "diagnosability"])]
+    pub(crate) measure: Option<String>,
+    /// The runs of each failure that are measured, one a seed
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = whole(1, 10_000))]
+    pub(crate) seeds: u64,
     #[command(flatten)]
     pub(crate) json: Json,
 }

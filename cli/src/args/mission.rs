@@ -154,6 +154,8 @@ pub(crate) enum Fidelity {
     Line,
     /// Two wheels that follow the path over a floor; of a mission that names none, along corridors
     Plane,
+    /// The same by signals: nothing is told about poses and failures but what devices read
+    Signal,
 }
 
 impl From<Fidelity> for cotama_sim::options::Fidelity {
@@ -161,6 +163,7 @@ impl From<Fidelity> for cotama_sim::options::Fidelity {
         match it {
             Fidelity::Line => Self::Line,
             Fidelity::Plane => Self::Plane,
+            Fidelity::Signal => Self::Signal,
         }
     }
 }

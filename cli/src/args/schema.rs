@@ -29,6 +29,7 @@ pub(crate) enum SchemaName {
     Conform,
     Floor,
     Fmeca,
+    Measure,
     Campaign,
     New,
     /// A line of a recorded run

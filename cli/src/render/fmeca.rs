@@ -2,8 +2,8 @@
 
 use super::style::{BAD, FAINT, GOOD, HEADING, NAME, NOTICE, PLAIN, Style};
 use super::table::{Cell, Table};
-use super::{described, wrapped};
-use crate::answers::fmeca::{Diagnosability, FmecaAnswer, FmecaRow, StatusRow};
+use super::{described, visible, wrapped};
+use crate::answers::fmeca::{Diagnosability, FmecaAnswer, FmecaRow, MeasureAnswer, StatusRow};
 use std::fmt::Write;
 
 /// Narrower screens show the rows one below the other, as cells would be too narrow to read.
@@ -346,6 +346,47 @@ fn status(row: &StatusRow<'_>, no_probes: bool, width: usize) -> String {
         text += &described(&format!("unseen {}", unseen.id), 15, BAD, &unseen.reason, width);
     }
     text
+}
+
+/// Returns the screen of measured detections.
+pub(crate) fn measured(answer: &MeasureAnswer, width: usize) -> String {
+    let head = ["", "found", "named", "median", "worst", "assumed", "taken for"];
+    let mut table = Table::new(vec![head.map(Cell::faint).to_vec()]).left(6);
+    let seconds = |it: Option<u64>| {
+        it.map_or_else(
+            || "\u{b7}".to_owned(),
+            |it| format!("{}.{} s", it / 1_000, it % 1_000 / 100),
+        )
+    };
+    for it in &answer.rows {
+        let of = |it: u64, runs: u64| if it * 20 >= runs * 19 { GOOD } else { BAD };
+        let taken = it.taken_for.iter().map(|it| format!("{} {}", it.runs, it.rows.join(" ")));
+        table.row(vec![
+            Cell::new(visible(&it.id), NAME),
+            Cell::new(format!("{} of {}", it.found, it.runs), of(it.found, it.runs)),
+            Cell::new(it.named.to_string(), of(it.named, it.runs)),
+            Cell::plain(seconds(it.median_ms)),
+            Cell::plain(seconds(it.worst_ms)),
+            Cell::faint(seconds(Some(it.assumed_ms))),
+            Cell::plain(visible(&taken.collect::<Vec<_>>().join(", "))),
+        ]);
+    }
+    let title = format!(
+        "{HEADING}{}{HEADING:#} on {}: each failure at {} m, {} runs, diagnosed within {} s\n\n",
+        visible(&answer.robot),
+        visible(&answer.mission),
+        answer.x_mm / 1_000,
+        answer.seeds,
+        answer.window_ms / 1_000
+    );
+    let alarms: u64 = answer.rows.iter().map(|it| it.false_alarms).sum();
+    let runs: u64 = answer.rows.iter().map(|it| it.runs).sum();
+    let after = format!(
+        "\nSomething was diagnosed before anything failed in {alarms} of {runs} runs. Told, as \
+         they harm no device here: {}.",
+        answer.told.join(", ")
+    );
+    title + &table.render(width) + &wrapped(&after, width, "")
 }
 
 #[cfg(test)]

@@ -40,8 +40,9 @@ pub fn tables(subject: &Subject<'_>, requirement: &Requirement, run: &Observed) 
             let _ = writeln!(text, "steps = {}", steps.min(i64::MAX as u64));
         }
         let _ = writeln!(text, "policy = \"{}\"", subject.policy().name());
-        if subject.policy().fidelity == Fidelity::Plane {
-            text.push_str("fidelity = \"plane\"\n");
+        let fidelity = subject.policy().fidelity;
+        if !fidelity.is_line() {
+            let _ = writeln!(text, "fidelity = \"{}\"", fidelity.name());
         }
     }
     text.push_str("\n[expected]\n");
@@ -83,7 +84,7 @@ impl From<&PlannedBy> for Policy {
             planner: Some(Planner::chosen(it.objective, Some(by), it.steps.unwrap_or(STEPS))),
             upward: it.policy == Adapts::Upward,
             rigid: it.policy == Adapts::Rigid,
-            fidelity: if it.in_plane { Fidelity::Plane } else { Fidelity::Line },
+            fidelity: Fidelity::ALL.get(it.fidelity).copied().unwrap_or_default(),
         }
     }
 }

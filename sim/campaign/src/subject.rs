@@ -127,7 +127,7 @@ impl<'m> Subject<'m> {
             let driven = Driven::with(mission, &options).map_err(Unready::Undriven)?;
             driven.run(&robots::Script::default()).map_err(no_plan)?;
             Robot::Driven(mission, Box::new(driven), Vec::new())
-        } else if policy.fidelity == Fidelity::Plane {
+        } else if !policy.fidelity.is_line() {
             return Err(Unready::Undriven(Undriven::Plain));
         } else {
             let options = policy.options(mission, FaultChoice::None);

@@ -65,6 +65,11 @@ impl Battery {
         self.left / self.capacity
     }
 
+    /// Returns the internal resistance, in Ω.
+    pub const fn resistance(&self) -> f64 {
+        self.resistance
+    }
+
     /// Returns the voltage under its last load, in V.
     pub const fn voltage(&self) -> f64 {
         self.voltage
@@ -85,7 +90,8 @@ impl Battery {
         self.is_off
     }
 
-    /// Draws a power in W for a time in seconds, while so many cells are dead: they give no voltage.
+    /// Draws a power in W for a time in seconds, while so many cells are dead: they give no
+    /// voltage.
     ///
     /// The current `i` gives the power `i (e - i r)`, or as much as the battery can, `e² / 4 r`.
     pub fn draw(&mut self, power: f64, time: f64, dead: u8) {

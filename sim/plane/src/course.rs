@@ -13,6 +13,7 @@ use std::fmt;
 pub struct Course {
     way: Way,
     surface: Segments,
+    charted: Segments,
     drivetrain: Drivetrain,
     track: Track,
     back: Track,
@@ -123,6 +124,7 @@ impl Course {
         let floor =
             floor.with_doors(&way.asked.open, &way.asked.close).map_err(|it| why(it.message))?;
         let surface = floor.surface(Version::Real, &[]).map_err(|it| why(it.to_string()))?;
+        let charted = floor.surface(Version::Charted, &[]).map_err(|it| why(it.to_string()))?;
         let way = around(way, &surface, &drivetrain);
         let radius = drivetrain.footprint.radius();
         let is_tight = |at: Point| surface.clearance(at, radius + TIGHT) < radius + TIGHT;
@@ -132,7 +134,7 @@ impl Course {
             return Err(NoCourse::Start);
         }
         let back = track.back(&drivetrain);
-        let course = Self { way, surface, drivetrain, track, back, people: None };
+        let course = Self { way, surface, charted, drivetrain, track, back, people: None };
         if people == 0 { Ok(course) } else { course.among(people, &floor) }
     }
 
@@ -168,6 +170,11 @@ impl Course {
     /// Returns the floor as it is.
     pub const fn surface(&self) -> &Segments {
         &self.surface
+    }
+
+    /// Returns the floor as the robot's map has it.
+    pub const fn charted(&self) -> &Segments {
+        &self.charted
     }
 
     /// Returns the wheels.

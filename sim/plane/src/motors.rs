@@ -5,8 +5,8 @@ use cotama_models::robots;
 
 /// A motor with its gear on each wheel, in SI units at the wheel.
 ///
-/// A direct-current motor: torque is `k` times the current, the voltage of a turning motor `k` times
-/// its speed, and the rest of the supply falls at the winding (Siciliano, Sciavicco, Villani,
+/// A direct-current motor: torque is `k` times the current, the voltage of a turning motor `k`
+/// times its speed, and the rest of the supply falls at the winding (Siciliano, Sciavicco, Villani,
 /// Oriolo, Robotics, 2009, Section 5.2.1, without the inductance, which is quick).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motors {
@@ -81,7 +81,8 @@ impl Motors {
         (current.abs(), power.max(0.0))
     }
 
-    /// Returns current and power of a motor whose wheel cannot turn: all that limit and supply give.
+    /// Returns current and power of a motor whose wheel cannot turn: all that limit and supply
+    /// give.
     pub(crate) fn held(&self, voltage: f64) -> (f64, f64) {
         let current = self.limit.min(voltage / self.resistance);
         (current, self.resistance * current * current)

@@ -24,6 +24,11 @@ impl Odometry {
         &self.pose
     }
 
+    /// Begins anew at a pose.
+    pub const fn begin(&mut self, pose: Pose) {
+        self.pose = pose;
+    }
+
     /// Reads the encoders.
     #[allow(clippy::cast_precision_loss)] // counts between two readings are few
     pub fn read(&mut self, drivetrain: &Drivetrain, counts: [i64; 2]) {

@@ -28,6 +28,12 @@ pub struct Rover<'c> {
     moved: bool,
     touches: bool,
     people: Option<People>,
+    /// Things in its way that are on no map.
+    things: Vec<Disc>,
+    /// The pose of its odometry's origin as it believes; `None` where it knows its pose.
+    belief: Option<Pose>,
+    /// The speeds that avoidance wants in place of those along the path.
+    steers: Option<Command>,
     /// The time since the start.
     now: Millis,
 }
@@ -72,6 +78,9 @@ impl<'c> Rover<'c> {
             moved: false,
             touches: false,
             people,
+            things: Vec::new(),
+            belief: None,
+            steers: None,
             now: Millis(0),
         }
     }
@@ -139,6 +148,63 @@ impl<'c> Rover<'c> {
         self.touches
     }
 
+    /// Lets it believe that its odometry began at this pose: from now on it follows its path by
+    /// odometry, and looks out for nobody by itself.
+    pub fn believe(&mut self, origin: Pose) {
+        self.belief = Some(origin);
+    }
+
+    /// Goes with these speeds from now on, where it is to move, and not along its path.
+    pub fn steer(&mut self, speeds: Option<Command>) {
+        self.steers = speeds;
+    }
+
+    /// Returns the pose at which it believes to be.
+    pub fn believed(&self) -> Pose {
+        match &self.belief {
+            Some(origin) => origin * self.odometry.pose(),
+            None => *self.vehicle.pose(),
+        }
+    }
+
+    /// Puts a thing on the floor, or takes all away.
+    pub fn put(&mut self, thing: Option<Disc>) {
+        match thing {
+            Some(it) => self.things.push(it),
+            None => self.things.clear(),
+        }
+    }
+
+    /// Returns the things on the floor that are on no map.
+    pub fn things(&self) -> &[Disc] {
+        &self.things
+    }
+
+    /// Its odometry begins anew: at the origin.
+    pub fn forget(&mut self) {
+        self.odometry.begin(Pose::identity());
+    }
+
+    /// Returns how far along its path it is, in metres.
+    pub const fn along(&self) -> f64 {
+        self.follower.along()
+    }
+
+    /// Returns the time since the start.
+    pub const fn now(&self) -> Millis {
+        self.now
+    }
+
+    /// Returns the course that it goes.
+    pub const fn course(&self) -> &'c Course {
+        self.course
+    }
+
+    /// Returns its wheels and their speeds.
+    pub const fn vehicle(&self) -> &Vehicle {
+        &self.vehicle
+    }
+
     /// Returns the people around it.
     pub fn people(&self) -> &[Disc] {
         self.people.as_ref().map_or(&[], People::now)
@@ -171,7 +237,8 @@ impl<'c> Rover<'c> {
         self.moved = false;
         self.now.0 += time.0;
         let towards = towards.0 as f64 / 1_000.0;
-        let towards = if self.people.is_some() { self.among_people(towards) } else { towards };
+        let slowed = if self.people.is_some() { self.among_people(towards) } else { towards };
+        let towards = if self.belief.is_some() { towards } else { slowed };
         let on_path = self.aside == Aside::No && self.owed.0 == 0;
         let mut steps = time.0.div_ceil(10);
         if self.drive.is_off() || (end.0 <= self.x.0 && on_path) {
@@ -231,8 +298,10 @@ impl<'c> Rover<'c> {
             course.drivetrain(),
         );
         let now = self.vehicle.speeds();
-        let pose = *self.vehicle.pose();
+        let (before, pose) = (*self.vehicle.pose(), self.believed());
         let (command, same) = self.follower.command(track, &pose, now, drivetrain, speed, goal);
+        let steered = self.steers.filter(|_| speed > 0.0);
+        let (command, same) = steered.map_or((command, same), |it| (it, 0.0));
         let all = STEP * most as f64;
         let even = self.drive.is_sound() && now == command && same > now.speed * all;
         let (steps, time) = if even { (most, all) } else { (1, STEP) };
@@ -241,8 +310,11 @@ impl<'c> Rover<'c> {
         let step = self.vehicle.step_under(drivetrain, surface, command, time, &effect);
         self.drive.took(&step, steps);
         self.touches |= self.vehicle.touches();
-        self.moved |= *self.vehicle.pose() != pose;
-        self.follower.see(track, self.vehicle.pose());
+        self.moved |= *self.vehicle.pose() != before;
+        if self.belief.is_some() {
+            self.odometry.read(drivetrain, self.vehicle.counts(drivetrain));
+        }
+        self.follower.see(track, &self.believed());
         let along = self.follower.along();
         // A robot that is not to move is nowhere else than it was.
         if along + AT < goal || speed == 0.0 {
@@ -279,12 +351,12 @@ impl<'c> Rover<'c> {
         let half = (self.owed.0 as f64 / 2_000.0).min(along);
         let back = self.course.track().length() - along;
         self.aside = Aside::Back(back + half);
-        let at = self.vehicle.pose().translation.vector.into();
+        let at = self.believed().translation.vector.into();
         self.follower = Follower::new(self.course.back().find(at, back - 0.1, back + 0.1).0);
     }
 
     fn follow(&mut self, along: f64) {
-        let at = self.vehicle.pose().translation.vector.into();
+        let at = self.believed().translation.vector.into();
         self.follower = Follower::new(self.course.track().find(at, along - 0.1, along + 0.1).0);
     }
 }

@@ -125,8 +125,8 @@ impl Vehicle {
         self.step_under(drivetrain, surface, command, time, &Effect::default());
     }
 
-    /// Goes on as [`Vehicle::step`] does, under the effect of faults and of the supply; returns what
-    /// the wheels did.
+    /// Goes on as [`Vehicle::step`] does, under the effect of faults and of the supply; returns
+    /// what the wheels did.
     pub fn step_under(
         &mut self,
         drivetrain: &Drivetrain,

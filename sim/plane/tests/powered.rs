@@ -98,8 +98,8 @@ proptest! {
         prop_assert_eq!(it.counts(&of), [right, left]);
     }
 
-    /// And the energy that is drawn is the time integral of voltage times current: that of the load,
-    /// as long as the battery is on.
+    /// And the energy that is drawn is the time integral of voltage times current: that of the
+    /// load, as long as the battery is on.
     #[test]
     fn charge_falls_and_never_below_0(
         loads in prop::collection::vec((0.0_f64..500.0, 0.001_f64..200.0), 1..60),

@@ -5,7 +5,7 @@ mod mover;
 
 pub use cotama_models::robots::Motion;
 pub use drive::Drive;
-pub(crate) use mover::{Mover, Moves};
+pub(crate) use mover::{Ground, Mover, Moves};
 
 use cotama_core::units::Millis;
 

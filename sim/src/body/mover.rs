@@ -1,8 +1,10 @@
 //! The body of a robot on its mission, at the fidelity of the run.
 
-use super::Drive;
+use super::{Drive, FIRMWARE_WATCHDOG};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
+use cotama_models::robots::{Harmed, Robot};
 use cotama_plane::{Course, Rover};
+use cotama_senses::{Bench, Senses, Uses};
 
 /// Something that goes along a path, and that failures hold back.
 pub(crate) trait Moves {
@@ -23,6 +25,14 @@ impl Moves for Drive {
     }
 }
 
+/// The floor of a mission for its runs, and what its robot senses with there.
+#[derive(Clone, Debug)]
+pub(crate) struct Ground {
+    pub(crate) course: Course,
+    /// `None` where all is told.
+    pub(crate) bench: Option<Bench>,
+}
+
 /// A robot on a line, or one on wheels.
 #[derive(Clone, Debug)]
 pub(crate) enum Mover<'c> {
@@ -33,18 +43,44 @@ pub(crate) enum Mover<'c> {
         moved: bool,
     },
     Plane(Box<Rover<'c>>),
+    Signal(Box<Sensing<'c>>),
+}
+
+/// A robot on wheels that is told nothing.
+#[derive(Clone, Debug)]
+pub(crate) struct Sensing<'c> {
+    rover: Rover<'c>,
+    senses: Senses<'c>,
+    uses: Uses,
+    /// The speed that was commanded last, and since when no command is heard.
+    last: MillimetresPerSecond,
+    unheard: Millis,
 }
 
 impl<'c> Mover<'c> {
-    /// A robot that stands at the start of its path; on a line where it has no course.
-    pub(crate) fn new(acceleration: u64, course: Option<(&'c Course, u64)>) -> Self {
-        match course {
-            Some((course, seed)) => Self::Plane(Box::new(Rover::new(course, seed))),
-            None => Self::Line {
-                drive: Drive::new(acceleration.max(1)),
-                owed: Millimetres(0),
-                moved: false,
-            },
+    /// A robot that stands at the start of its path; on a line where it has no ground.
+    pub(crate) fn new(robot: &'c Robot, ground: Option<(&'c Ground, u64)>) -> Self {
+        let acceleration = robot.body.as_ref().map_or(1, |it| it.acceleration);
+        let line = Self::Line {
+            drive: Drive::new(acceleration.max(1)),
+            owed: Millimetres(0),
+            moved: false,
+        };
+        let Some((ground, seed)) = ground else { return line };
+        let rover = Rover::new(&ground.course, seed);
+        let Some(bench) = &ground.bench else { return Self::Plane(Box::new(rover)) };
+        match Senses::new(bench, robot, &rover, seed) {
+            Ok(senses) => Self::Signal(Box::new(Sensing {
+                rover,
+                senses,
+                uses: Uses { modules: 0, is_led: false, moves: false },
+                last: MillimetresPerSecond(0),
+                unheard: Millis(0),
+            })),
+            Err(why) => {
+                debug_assert!(false, "the bench has the same devices: {why:?}");
+                line
+            }
         }
     }
 
@@ -52,7 +88,7 @@ impl<'c> Mover<'c> {
     pub(crate) const fn line(&self) -> Option<&Drive> {
         match self {
             Self::Line { drive, .. } => Some(drive),
-            Self::Plane(_) => None,
+            Self::Plane(_) | Self::Signal(_) => None,
         }
     }
 
@@ -60,7 +96,7 @@ impl<'c> Mover<'c> {
     pub(crate) const fn line_mut(&mut self) -> Option<&mut Drive> {
         match self {
             Self::Line { drive, .. } => Some(drive),
-            Self::Plane(_) => None,
+            Self::Plane(_) | Self::Signal(_) => None,
         }
     }
 
@@ -69,44 +105,69 @@ impl<'c> Mover<'c> {
         match self {
             Self::Line { .. } => None,
             Self::Plane(it) => Some(it),
+            Self::Signal(it) => Some(&it.rover),
+        }
+    }
+
+    fn rover_mut(&mut self) -> Option<&mut Rover<'c>> {
+        match self {
+            Self::Line { .. } => None,
+            Self::Plane(it) => Some(it),
+            Self::Signal(it) => Some(&mut it.rover),
+        }
+    }
+
+    /// Returns the flags that signals raise, a bit each; `None` where flags are told.
+    pub(crate) fn flags(&self) -> Option<u64> {
+        match self {
+            Self::Signal(it) => Some(it.senses.flags()),
+            Self::Line { .. } | Self::Plane(_) => None,
+        }
+    }
+
+    /// Tells what runs in this period, and what is harmed.
+    pub(crate) fn prepare(&mut self, uses: Uses, harms: &[Harmed]) {
+        if let Self::Signal(it) = self {
+            it.uses = uses;
+            it.senses.harm(harms, &mut it.rover);
         }
     }
 
     /// Returns how far it has come along its path.
     pub(crate) fn x(&self) -> Millimetres {
-        match self {
-            Self::Line { drive, .. } => drive.x(),
-            Self::Plane(it) => it.x(),
+        match (self, self.rover()) {
+            (Self::Line { drive, .. }, _) => drive.x(),
+            (_, rover) => rover.map_or(Millimetres(0), Rover::x),
         }
     }
 
     pub(crate) fn speed(&self) -> MillimetresPerSecond {
-        match self {
-            Self::Line { drive, .. } => drive.speed(),
-            Self::Plane(it) => it.speed(),
+        match (self, self.rover()) {
+            (Self::Line { drive, .. }, _) => drive.speed(),
+            (_, rover) => rover.map_or(MillimetresPerSecond(0), Rover::speed),
         }
     }
 
     /// Whether it stands, and does not turn either.
     pub(crate) fn stands(&self) -> bool {
-        match self {
-            Self::Line { drive, .. } => drive.speed().0 == 0,
-            Self::Plane(it) => it.stands(),
+        match (self, self.rover()) {
+            (Self::Line { drive, .. }, _) => drive.speed().0 == 0,
+            (_, rover) => rover.is_none_or(Rover::stands),
         }
     }
 
     pub(crate) fn braking_distance(&self) -> Millimetres {
-        match self {
-            Self::Line { drive, .. } => drive.braking_distance(),
-            Self::Plane(it) => it.braking_distance(),
+        match (self, self.rover()) {
+            (Self::Line { drive, .. }, _) => drive.braking_distance(),
+            (_, rover) => rover.map_or(Millimetres(0), Rover::braking_distance),
         }
     }
 
     /// Whether it moved in the last period.
     pub(crate) fn moved(&self) -> bool {
-        match self {
-            Self::Line { moved, .. } => *moved,
-            Self::Plane(it) => it.moved(),
+        match (self, self.rover()) {
+            (Self::Line { moved, .. }, _) => *moved,
+            (_, rover) => rover.is_some_and(Rover::moved),
         }
     }
 
@@ -117,26 +178,30 @@ impl<'c> Mover<'c> {
 
     /// Owes a way beside the path.
     pub(crate) fn owe(&mut self, way: Millimetres) {
-        match self {
-            Self::Line { owed, .. } => owed.0 += way.0,
-            Self::Plane(it) => it.owe(way),
+        if let Self::Line { owed, .. } = self {
+            owed.0 += way.0;
+        }
+        if let Some(rover) = self.rover_mut() {
+            rover.owe(way);
         }
     }
 
     /// Returns the way that is left beside the path.
     pub(crate) fn owed(&self) -> Millimetres {
-        match self {
-            Self::Line { owed, .. } => *owed,
-            Self::Plane(it) => it.owed(),
+        match (self, self.rover()) {
+            (Self::Line { owed, .. }, _) => *owed,
+            (_, rover) => rover.map_or(Millimetres(0), Rover::owed),
         }
     }
 }
 
 impl Moves for Mover<'_> {
     fn stand(&mut self) {
-        match self {
-            Self::Line { drive, .. } => drive.stand(),
-            Self::Plane(it) => it.stand(),
+        if let Self::Line { drive, .. } = self {
+            drive.stand();
+        }
+        if let Some(rover) = self.rover_mut() {
+            rover.stand();
         }
     }
 
@@ -156,6 +221,25 @@ impl Moves for Mover<'_> {
                 owed.0 -= taken;
             }
             Self::Plane(it) => it.go(towards, end, time),
+            Self::Signal(it) => it.go(towards, end, time),
         }
+    }
+}
+
+impl Sensing<'_> {
+    /// Goes on as commanded, no faster than ranges leave; without commands as the last one said,
+    /// until the micro-controller stops the motors.
+    fn go(&mut self, towards: MillimetresPerSecond, end: Millimetres, time: Millis) {
+        let towards = if self.senses.is_heard() {
+            self.unheard = Millis(0);
+            MillimetresPerSecond(towards.0.min(self.senses.limit_mm_s()))
+        } else {
+            self.unheard.0 += time.0;
+            let stops = self.unheard >= FIRMWARE_WATCHDOG;
+            if stops { MillimetresPerSecond(0) } else { self.last }
+        };
+        self.last = towards;
+        self.rover.go(towards, end, time);
+        self.senses.sense(&mut self.rover, self.uses, time);
     }
 }

@@ -264,7 +264,8 @@ impl Driver {
         let seen = std::mem::take(&mut self.moving.seen);
         let first = self.moving.failures.all.get(*seen.first()?)?.number;
         self.calm = false;
-        let (_, taken) = self.moving.failures.diagnosed(&KIND.tables, &seen, Hidden::default());
+        let (_, taken) =
+            self.moving.failures.diagnosed(KIND.robot, &KIND.tables, (0, &seen), Hidden::default());
         let reports = taken.into_iter().filter_map(|it| KIND.tables.failures.get(it));
         let reports = reports.map(|it| usize::from(it.report));
         for told in reports.map(Told::Report) {

@@ -3,7 +3,7 @@
 use crate::body::{FIRMWARE_WATCHDOG, Motion, Moves};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::level::{Hidden, Tables};
-use cotama_models::robots::{self, Mode, Parts, Robot, Setting, Where, members};
+use cotama_models::robots::{self, Harmed, Mode, Parts, Robot, Setting, Where, members};
 use cotama_models::severity::Persistence;
 
 /// A failure under way.
@@ -30,6 +30,8 @@ pub(crate) struct Failures {
     pub(crate) losses: Option<(Parts, u32)>,
     /// The longest time that one was to be seen, beyond its latency, and was not.
     pub(crate) unseen: Millis,
+    /// The flags that are up by signals of the robot; `None` where all flags are told.
+    pub(crate) signals: Option<u64>,
 }
 
 /// The demand on the motors in a period.
@@ -109,20 +111,57 @@ impl Failures {
         }
     }
 
-    /// Returns the flags that failures raise which are seen from now on, and the rows that they are
-    /// taken for, but for what masks hide.
+    /// Whether a failure shows itself by what it does to a device alone: nothing is told of it.
+    fn is_sensed(&self, row: &robots::Failure) -> bool {
+        self.signals.is_some() && row.harm.is_some()
+    }
+
+    /// The harm that failures under way do.
+    pub(crate) fn harms(&self, robot: &Robot) -> impl Iterator<Item = Harmed> {
+        self.open(robot).filter_map(|it| it.1.harm)
+    }
+
+    /// Signals of the robot raise and lower flags; returns those that are raised, and the failures
+    /// under way which they show.
+    pub(crate) fn sense(&mut self, robot: &Robot, up: u64) -> (u64, Vec<usize>) {
+        let new = up & !self.signals.replace(up).unwrap_or(0);
+        let mut seen = Vec::new();
+        for (at, it) in self.all.iter().enumerate().filter(|it| !it.1.over && !it.1.found) {
+            let Some(row) = robot.failures.get(it.number) else { continue };
+            let own = row.flags.iter().chain(&row.sometimes);
+            let own = own.fold(0_u64, |set, it| set | 1 << (it % 64));
+            if row.harm.is_some() && own & new != 0 {
+                seen.push(at);
+            }
+        }
+        (new, seen)
+    }
+
+    /// Failures are found: their flags are explained.
+    pub(crate) fn find(&mut self, seen: &[usize]) {
+        for it in seen {
+            if let Some(it) = self.all.get_mut(*it) {
+                it.found = true;
+            }
+        }
+    }
+
+    /// Returns the flags that are raised from now on, by signals and by failures that are told, and
+    /// the rows that they are taken for, but for what masks hide.
     pub(crate) fn diagnosed(
         &self,
+        robot: &Robot,
         tables: &Tables<'_>,
-        seen: &[usize],
+        (new, seen): (u64, &[usize]),
         hidden: Hidden,
     ) -> (Vec<usize>, Vec<usize>) {
-        let rows = seen.iter().filter_map(|it| self.all.get(*it));
-        let rows = rows.filter_map(|it| tables.failures.get(it.number));
-        let raised = rows.fold(0, |set, it| set | it.flags);
-        let open = self.all.iter().filter(|it| it.found && !it.over);
-        let open = open.filter_map(|it| tables.failures.get(it.number));
-        let up = open.fold(0, |set, it| set | it.flags);
+        let is_told =
+            |it: &&Failure| !robot.failures.get(it.number).is_some_and(|it| self.is_sensed(it));
+        let flags = |it: &Failure| tables.failures.get(it.number).map_or(0, |it| it.flags);
+        let rows = seen.iter().filter_map(|it| self.all.get(*it)).filter(is_told);
+        let raised = rows.fold(new, |set, it| set | flags(it));
+        let open = self.all.iter().filter(|it| it.found && !it.over).filter(is_told);
+        let up = open.fold(self.signals.unwrap_or(0), |set, it| set | flags(it));
         let taken = hidden.diagnose(tables.failures, up, raised);
         (members(raised).collect(), taken.worst_first(tables.failures).collect())
     }
@@ -131,7 +170,11 @@ impl Failures {
     pub(crate) fn shown(&self, tables: &Tables<'_>) -> u64 {
         let seen = self.all.iter().filter(|it| it.found && !it.over);
         let seen = seen.filter_map(|it| tables.failures.get(it.number));
-        seen.fold(0, |set, it| set | 1 << it.report)
+        let told = seen.fold(0, |set, it| set | 1 << it.report);
+        // Of signals, all that their flags speak of: nobody knows which of it there is.
+        let up = self.signals.unwrap_or(0);
+        let spoken_of = tables.failures.iter().filter(|it| it.flags & up != 0);
+        spoken_of.fold(told, |set, it| set | 1 << it.report)
     }
 
     /// Whether the operator answers nothing.
@@ -146,6 +189,9 @@ impl Failures {
 
     /// Returns the losses of which something is broken, known or not, a bit each.
     pub(crate) fn broken_losses(&mut self, robot: &Robot, tables: &Tables<'_>) -> u32 {
+        if self.signals.is_some() {
+            return u32::MAX; // no signal says that what was lost works again
+        }
         if self.all.iter().all(|it| it.over) {
             return 0;
         }
@@ -174,7 +220,7 @@ impl Failures {
     /// Moves for a period, as failures leave it of what is demanded.
     pub(crate) fn go(&self, robot: &Robot, now: Millis, demand: &Demand, drive: &mut impl Moves) {
         let (mut towards, mut is_blocked) = (demand.speed, false);
-        for (it, row) in self.open(robot) {
+        for (it, row) in self.open(robot).filter(|it| !self.is_sensed(it.1)) {
             match row.motion {
                 Motion::Free => {}
                 Motion::Blocked if demand.led => {}
@@ -209,7 +255,8 @@ impl Failures {
         let mut seen = Vec::new();
         for (at, it) in self.all.iter_mut().enumerate() {
             let Some(row) = robot.failures.get(it.number) else { continue };
-            if it.over || it.found || !is_shown(robot, row, place) {
+            let is_sensed = self.signals.is_some() && row.harm.is_some();
+            if it.over || it.found || is_sensed || !is_shown(robot, row, place) {
                 continue;
             }
             it.shown.0 += period;

@@ -18,6 +18,7 @@
 
 pub(crate) mod failing;
 mod hindered;
+mod measure;
 mod monitor;
 pub(crate) mod operator;
 mod summary;
@@ -25,6 +26,7 @@ mod summary;
 mod twin;
 mod world;
 
+use crate::body::Ground;
 use crate::options::{Fidelity, Options, Planner};
 use crate::plan::{Plannable, Planning, Progress};
 use crate::record::{Recorder, Silent};
@@ -40,6 +42,8 @@ use cotama_models::robots::{
     Answer, Decision, Incident, IncidentKind, Moment, OwnedTables, RobotFile, Told, Where,
 };
 use cotama_plane::{Course, NoCourse};
+use cotama_senses::Bench;
+pub use measure::{Measured, WINDOW};
 use monitor::Watching;
 pub use monitor::{Monitor, Unmonitored, Violation};
 use std::collections::{BTreeSet, VecDeque};
@@ -172,6 +176,9 @@ pub struct Run {
     pub used: [u64; 2],
     /// How often the operator was asked by the supervisors.
     pub operator_requests: u64,
+    /// Flags that signals raised of no failure under way that they show: when, and the rows that
+    /// they were taken for.
+    pub alarms: Vec<(Millis, Vec<usize>)>,
     /// Events that the supervisors accepted, each with the number of the round before it.
     pub told: Vec<(u64, Told)>,
     /// How many rounds there were.
@@ -236,12 +243,14 @@ pub struct Driven<'m> {
     tables: OwnedTables,
     plannable: Plannable<'m>,
     /// The floor that it goes over, for runs in the plane.
-    course: Option<Box<Course>>,
+    ground: Option<Box<Ground>>,
     /// The seed of the people there.
     seed: u64,
     monitors: Vec<Monitor>,
     /// For how long the robot is watched when it is safe.
     after: Millis,
+    /// Where only the detection of the first failure is of interest: how long it may take.
+    window: Option<Millis>,
 }
 
 /// The supervisors, packed into the smallest memory that holds them.
@@ -268,6 +277,8 @@ pub enum Undriven {
     Unwatchable(MonitorError),
     /// The robot cannot drive over the floor.
     NoCourse(NoCourse),
+    /// Its devices cannot be made.
+    NoSenses(String),
 }
 
 impl std::fmt::Display for Undriven {
@@ -276,6 +287,7 @@ impl std::fmt::Display for Undriven {
             Self::Plain => f.write_str("the mission names no robot that has a file"),
             Self::TooLarge(why) => write!(f, "the robot's supervisors cannot be played: {why}"),
             Self::NoCourse(why) => write!(f, "the robot cannot drive in the plane: {why}"),
+            Self::NoSenses(why) => write!(f, "the robot cannot sense: {why}"),
             Self::Unwatchable(why) => write!(f, "the limits cannot be watched: {why}"),
         }
     }
@@ -310,10 +322,14 @@ impl<'m> Driven<'m> {
         let packed = packed.map_err(Undriven::TooLarge)?;
         let tables = OwnedTables::of(robot, &mission.steps(), &system);
         let plannable = Plannable::new(mission, options).map_err(Undriven::Unwatchable)?;
-        let course = match options.fidelity {
+        let ground = match options.fidelity {
             Fidelity::Line => None,
-            Fidelity::Plane => {
-                Some(Box::new(Course::of(mission, options.people).map_err(Undriven::NoCourse)?))
+            Fidelity::Plane | Fidelity::Signal => {
+                let course = Course::of(mission, options.people).map_err(Undriven::NoCourse)?;
+                let body = robot.body.as_ref().filter(|_| options.fidelity == Fidelity::Signal);
+                let bench = body.map(|it| Bench::of(&course, it)).transpose();
+                let bench = bench.map_err(|it| Undriven::NoSenses(it.to_string()))?;
+                Some(Box::new(Ground { course, bench }))
             }
         };
         let (monitors, after) = (Vec::new(), Millis(0));
@@ -323,10 +339,11 @@ impl<'m> Driven<'m> {
             packed,
             tables,
             plannable,
-            course,
+            ground,
             seed: options.seed,
             monitors,
             after,
+            window: None,
         })
     }
 
@@ -350,9 +367,15 @@ impl<'m> Driven<'m> {
         Self { after, ..self }
     }
 
+    /// Noise and people of its runs are drawn by this seed.
+    #[must_use]
+    pub fn seeded(self, seed: u64) -> Self {
+        Self { seed, ..self }
+    }
+
     /// Returns the floor that it goes over, of runs in the plane.
     pub fn course(&self) -> Option<&Course> {
-        self.course.as_deref()
+        self.ground.as_deref().map(|it| &it.course)
     }
 
     /// Returns the planner.
@@ -395,14 +418,19 @@ impl<'m> Driven<'m> {
         let (start, available) = (Progress::start(Millimetres(0)), self.mission.available());
         let planning = Planning::start(&self.plannable, &start, available)?;
         let watching = Watching::new(&self.monitors);
-        let (tables, course) =
-            (self.tables.view(), self.course.as_deref().map(|it| (it, self.seed)));
-        let world = World::start(&tables, program, planning, script, course, period, watching);
+        let (tables, ground) =
+            (self.tables.view(), self.ground.as_deref().map(|it| (it, self.seed)));
+        let world = World::start(&tables, program, planning, script, ground, period, watching);
         let Some(mut world) = world else {
             return Err(NoPlan::Infeasible); // a mission that is driven has a robot with a body
         };
-        world.run(recorder);
-        world.stand_for(self.after);
+        match self.window {
+            None => {
+                world.run(recorder);
+                world.stand_for(self.after);
+            }
+            Some(window) => world.look(window),
+        }
         Ok(world.into_run())
     }
 }

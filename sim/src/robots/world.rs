@@ -9,21 +9,21 @@ use super::hindered::Hindered;
 use super::monitor::Watching;
 use super::operator::Operator;
 use super::{Conduct, Injection, Run, Script};
-use crate::body::{Drive, Mover};
+use crate::body::{Drive, Ground, Mover};
 use crate::plan::{Planning, Progress};
 use crate::record::{Recorder, Silent};
 use crate::run::{LONGEST, Outcome};
 use cotama_core::player::Program;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
-use cotama_models::level::{Cause, Decider, Level, Tables};
+use cotama_models::level::{Decider, Level, Tables};
 use cotama_models::missions::Mission;
 use cotama_models::missions::tables::Rest;
 use cotama_models::robots::{Body, Global, Moment, Parts, Robot, Where};
-use cotama_plane::Course;
 use records::Recording;
 use std::collections::BTreeSet;
 
 mod motion;
+mod observing;
 mod passing;
 mod planning;
 mod records;
@@ -112,7 +112,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         program: P,
         planning: Planning<'m>,
         script: &Script,
-        course: Option<(&'m Course, u64)>,
+        ground: Option<(&'m Ground, u64)>,
         period: Millis,
         watching: Watching<'m>,
     ) -> Option<Self> {
@@ -125,6 +125,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             x: Millimetres(0),
             used: [0; 2],
             operator_requests: 0,
+            alarms: Vec::new(),
             told: Vec::new(),
             rounds: 0,
             conduct: Vec::new(),
@@ -140,6 +141,8 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             touched: None,
             violated: None,
         };
+        let drive = Mover::new(robot, ground);
+        let signals = drive.flags();
         Some(Self {
             mission,
             robot,
@@ -147,11 +150,11 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             decider: Decider::new(Level::start(tables, program)),
             planning,
             now: Millis(0),
-            drive: Mover::new(body.acceleration, course),
+            drive,
             energy_uj: 0,
             waiting: script.injections.clone(),
             until: Vec::new(),
-            failures: Failures { period: body.period, ..Failures::default() },
+            failures: Failures { period: body.period, signals, ..Failures::default() },
             hindered: Hindered::new(&script.events, &script.power_errors),
             operator: Operator::new(&script.answers),
             known: Parts::NONE,
@@ -191,6 +194,25 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             }
         }
         self.record_end(&mut recording);
+    }
+
+    /// Runs until something is diagnosed after the first failure, or nothing is within a time.
+    pub(super) fn look(&mut self, window: Millis) {
+        let mut silent = Silent;
+        let mut recording = Recording::new(&mut silent);
+        while self.end().is_none() {
+            self.step(&mut recording);
+            let alarm = self.run.alarms.last().map(|it| it.0);
+            let is_over = self.run.conduct.first().is_some_and(|it| {
+                it.detected.is_some()
+                    || alarm >= Some(it.injected)
+                    || self.now.0 >= it.injected.0.saturating_add(window.0)
+            });
+            if is_over {
+                break;
+            }
+        }
+        (self.run.time, self.run.x) = (self.now, self.drive.x());
     }
 
     /// Goes on for a time after the robot was made safe, and notes whether it moves.
@@ -240,7 +262,9 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
 
     /// How the mission ends, if it does.
     fn end(&self) -> Option<Outcome> {
-        if self.run.violated.is_some() || self.run.touched.is_some() {
+        // By signals, contact is seen: a flag is raised, and the supervisors decide.
+        let is_told = self.failures.signals.is_none();
+        if self.run.violated.is_some() || (is_told && self.run.touched.is_some()) {
             return Some(Outcome::Failed);
         }
         let stands = self.drive.stands();
@@ -327,16 +351,6 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         self.decider.level().tables()
     }
 
-    /// Observers look whether settings are still needed, and whether what is lost works again.
-    pub(super) fn see(&mut self, now: Millis) {
-        let tables = self.tables();
-        let broken = self.failures.broken_losses(self.robot, tables);
-        self.decider.see(now, self.failures.shown(tables), broken);
-        #[cfg(test)]
-        self.note_observed(now);
-        self.calm &= self.decider.listens();
-    }
-
     /// Whether a drive is under way.
     pub(super) fn drives(&self) -> bool {
         matches!(self.global, Global::Does(_)) && !self.objective_stands()
@@ -385,30 +399,5 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let of = self.robot.configurations.get(configuration);
         let left = u64::from(self.decider.adapted().lasting_speed(self.tables()));
         of.map_or(MillimetresPerSecond(0), |it| MillimetresPerSecond(it.speed.0 * left / 1_000))
-    }
-
-    /// Observers raise flags, and what they show is reported.
-    fn observe<R: Recorder>(&mut self, recording: &mut Recording<'_, R>) {
-        let unmasked = self.decider.unmasked(self.now);
-        self.failures.unmask(self.tables(), unmasked);
-        let seen = self.failures.look(self.robot, self.place);
-        let Some(first) = seen.first().copied() else { return };
-        self.calm = false;
-        let (raised, taken) =
-            self.failures.diagnosed(self.tables(), &seen, self.decider.hidden(self.now));
-        for it in &seen {
-            if let Some(conduct) = self.run.conduct.get_mut(*it) {
-                conduct.detected = Some(self.now);
-                conduct.taken_for.clone_from(&taken);
-            }
-        }
-        self.record_diagnosis(recording, &seen, &raised, &taken);
-        for failure in taken {
-            let its_own = seen
-                .iter()
-                .find(|it| self.failures.all.get(**it).is_some_and(|it| it.number == failure));
-            let cause = Cause(u16::try_from(its_own.unwrap_or(&first) + 1).unwrap_or(u16::MAX));
-            self.decider.report(failure, cause);
-        }
     }
 }

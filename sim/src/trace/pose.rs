@@ -18,7 +18,10 @@ pub struct Pose {
     pub odometry_mm: [i32; 2],
     /// The heading that its encoders tell.
     pub odometry_mrad: i32,
-    /// The people around it.
+    /// The place and the heading at which it believes to be, where it works them out itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub believed: Option<([i32; 2], i32)>,
+    /// The people around it, and things that are on no map.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub people_mm: Vec<[i32; 2]>,
 }

@@ -47,12 +47,13 @@ pub struct PlannedBy {
     pub steps: Option<u64>,
     /// How plans are adapted.
     pub policy: Adapts,
-    /// Whether the robot drove in the plane, else on a line.
-    pub in_plane: bool,
+    /// How closely the robot was modelled, as a position in [`FIDELITIES`].
+    pub fidelity: usize,
 }
 
-/// Names of how closely a robot is modelled: on a line, in the plane.
-pub const FIDELITIES: [&str; 2] = ["line", "plane"];
+/// Names of how closely a robot is modelled: on a line, in the plane, in the plane by its signals
+/// alone.
+pub const FIDELITIES: [&str; 3] = ["line", "plane", "signal"];
 
 /// How plans are adapted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

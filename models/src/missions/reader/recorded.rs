@@ -22,9 +22,9 @@ pub(super) fn planner(mut fields: Fields<'_>) -> Option<PlannedBy> {
     fields.finish();
     let objective = OBJECTIVES.iter().find(|it| Some(it.0) == objective)?.1;
     let policy = Adapts::NAMES.iter().find(|it| Some(it.0) == policy)?.1;
-    let in_plane = fidelity? == FIDELITIES[1];
+    let fidelity = FIDELITIES.iter().position(|it| Some(*it) == fidelity)?;
     let exact = by? == ALLOCATORS[1];
-    Some(PlannedBy { objective, exact, steps: steps.ok()?, policy, in_plane })
+    Some(PlannedBy { objective, exact, steps: steps.ok()?, policy, fidelity })
 }
 
 /// `[expected]`.

@@ -142,7 +142,7 @@ fn failure(
         latency: Millis(latency.ok()?.unwrap_or(0)),
         loses: loses?,
         motion: motion?,
-        harm: harm?,
+        harm: harm.ok()?,
         ends: ends.ok()?.map(Millis),
         helped: helped.ok()?.unwrap_or(false),
         no_plan: no_plan.ok()?.unwrap_or(false),

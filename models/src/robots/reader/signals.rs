@@ -30,9 +30,16 @@ pub(super) fn watches(fields: &mut Fields<'_>, flags: usize) -> Option<Vec<Optio
     Some(read.into_iter().map(|it| WATCHES.get(it).map(|it| it.1)).collect())
 }
 
-/// The harm of a failure.
-pub(super) fn harm(fields: &mut Fields<'_>) -> Option<Option<Harmed>> {
-    let Some(mut fields) = fields.optional_table("harm").ok()? else { return Some(None) };
+/// The harm of a failure, if it has one.
+///
+/// # Errors
+/// None to tell: they are reported.
+pub(super) fn harm(fields: &mut Fields<'_>) -> Result<Option<Harmed>, ()> {
+    let Some(fields) = fields.optional_table("harm").map_err(|_| ())? else { return Ok(None) };
+    harmed(fields).map(Some).ok_or(())
+}
+
+fn harmed(mut fields: Fields<'_>) -> Option<Harmed> {
     let harm = fields.text("is");
     let harm = harm.and_then(|it| fields.index_of(&it, "harm", HARMS.iter().map(|it| it.0)));
     let unit = fields.optional_integer("unit", HARM_UNITS);
@@ -40,5 +47,5 @@ pub(super) fn harm(fields: &mut Fields<'_>) -> Option<Option<Harmed>> {
     fields.finish();
     let harm = HARMS.get(harm?)?.1;
     let (unit, permille) = (unit.ok()?.unwrap_or(0), permille.ok()?.unwrap_or(500));
-    Some(Some(Harmed { harm, unit, permille }))
+    Some(Harmed { harm, unit, permille })
 }

@@ -1,4 +1,5 @@
 mod broken;
+mod powered;
 mod reactions;
 mod settings;
 

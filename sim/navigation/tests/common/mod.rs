@@ -55,6 +55,8 @@ pub fn drivetrain(speed: f64) -> Drivetrain {
         real: [1.0; 3],
         counts: 76_600.0,
         footprint: Footprint::disc(RADIUS),
+        motors: None,
+        battery: None,
     }
 }
 

@@ -118,7 +118,7 @@ fn place(corners: &[Corner], x_mm: u64, at: impl Fn([i32; 2]) -> [f64; 2]) -> [f
 
 /// Poses of the robot over time as JSON, each with a turn in degrees clockwise and the places of
 /// the people; with the people, and where it was and
-/// believed to be by its encoders as lines; empty for a run on a line.
+/// believed to be as lines; empty for a run on a line.
 fn poses(view: &View<'_>, pixels: &Pixels) -> (String, String) {
     let poses = view.trace.records.iter().filter_map(|it| match it {
         Record::Pose(it) => Some(it),
@@ -130,7 +130,8 @@ fn poses(view: &View<'_>, pixels: &Pixels) -> (String, String) {
     let poses = poses.iter().enumerate().filter(|it| it.0 % every == 0 || it.0 == last);
     let (mut json, mut lines, mut count) = (Vec::new(), [Vec::new(), Vec::new()], 0);
     for (_, it) in poses {
-        let [at, told] = [it.at_mm, it.odometry_mm].map(|it| pixels.at(metres(it)).map(fixed));
+        let told = it.believed.map_or(it.odometry_mm, |it| it.0);
+        let [at, told] = [it.at_mm, told].map(|it| pixels.at(metres(it)).map(fixed));
         let turn = f64::from(-it.heading_mrad) * 0.18 / core::f64::consts::PI;
         let [x, y] = &at;
         let people = it.people_mm.iter().flat_map(|it| pixels.at(metres(*it)).map(fixed));

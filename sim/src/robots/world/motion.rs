@@ -6,6 +6,7 @@ use crate::robots::failing::{Demand, mode};
 use cotama_core::player::Program;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Milliwatts};
 use cotama_models::robots::{Global, Mode, Parts, Where};
+use cotama_senses::Uses;
 
 impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// The robot goes on for a period: who holds a permit moves it.
@@ -16,6 +17,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         if self.hindered.waits() {
             self.drive.stand();
         }
+        self.prepare();
         self.failures.go(self.robot, self.now, &demand, &mut self.drive);
         let moved = self.drive.moved();
         if self.drive.touches() && self.run.touched.is_none() {
@@ -25,6 +27,20 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         self.energy_uj = self.energy_uj.saturating_add(power.0.saturating_mul(self.body.period.0));
         self.run.moved_when_safe |= moved && self.global == Global::Safe;
         self.measure(before, permitted);
+    }
+
+    /// Tells a robot that is told nothing what runs, and what failures harm.
+    fn prepare(&mut self) {
+        if self.failures.signals.is_none() {
+            return;
+        }
+        let works = self.robot.available(self.known);
+        let runs = self.configuration().and_then(|it| self.robot.configurations.get(it));
+        let modules = runs.map_or(0, |it| it.required | it.optional) & works;
+        let is_led = mode(self.robot, self.place) == Some(Mode::Operator);
+        let moves = self.demand().speed.0 > 0;
+        let harms: Vec<_> = self.failures.harms(self.robot).collect();
+        self.drive.prepare(Uses { modules, is_led, moves }, &harms);
     }
 
     /// Returns what is demanded of the motors: the pace of what runs while it has a permit.

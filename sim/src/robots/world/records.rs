@@ -265,7 +265,8 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
                 let [(at_mm, heading_mrad), (odometry_mm, odometry_mrad)] =
                     [rover.pose(), rover.odometry()].map(whole);
                 let person = |it: &cotama_plane::Disc| in_mm(it.centre.x, it.centre.y);
-                let people_mm = rover.people().iter().map(person).collect();
+                let people_mm = rover.people().iter().chain(rover.things()).map(person).collect();
+                let believed = self.failures.signals.map(|_| whole(&rover.believed()));
                 to.put(|| {
                     Record::Pose(Pose {
                         t_us,
@@ -274,6 +275,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
                         heading_mrad,
                         odometry_mm,
                         odometry_mrad,
+                        believed,
                         people_mm,
                     })
                 });

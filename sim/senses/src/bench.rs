@@ -1,0 +1,108 @@
+//! What the robots of a mission share: the map, and what a sound robot shows on its course.
+
+use crate::sonars::{RANGE_M, ring, short};
+use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
+use cotama_devices::{Ring, Scene, SettingsError, Streams};
+use cotama_localisation::{Chart, Model, Parameters, Sensor};
+use cotama_models::robots::Body;
+use cotama_observers::{SonarSurvey, Survey, Tail};
+use cotama_plane::{Course, Rover};
+use std::fmt;
+
+/// All that the senses of a mission's runs share.
+#[derive(Clone, Debug)]
+pub struct Bench {
+    pub(crate) chart: Chart,
+    pub(crate) far: SonarSurvey,
+    pub(crate) near: SonarSurvey,
+    pub(crate) behind: Tail,
+    pub(crate) waits: Tail,
+}
+
+/// Why a robot has no senses.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoBench {
+    /// The floor cannot be charted.
+    Chart(String),
+    /// A number of a device or an observer.
+    Settings(SettingsError),
+}
+
+impl fmt::Display for NoBench {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Chart(why) => write!(f, "the floor cannot be charted: {why}"),
+            Self::Settings(why) => write!(f, "a device or an observer cannot be: {why}"),
+        }
+    }
+}
+
+impl std::error::Error for NoBench {}
+
+impl From<SettingsError> for NoBench {
+    fn from(it: SettingsError) -> Self {
+        Self::Settings(it)
+    }
+}
+
+/// Cells of the chart, in metres.
+const CELL_M: f64 = 0.1;
+/// Spells at the largest range, and at a short one, that a survey notes, in metres of way.
+const FAR_BEYOND_M: f64 = 1.0;
+const NEAR_BEYOND_M: f64 = 0.3;
+/// The longest survey.
+const LONGEST: Millis = Millis(3_600_000);
+
+/// Parameters of the filter: 100 to 500 particles; the ring is one reading of 16 beams.
+fn parameters() -> Parameters {
+    Parameters {
+        min_particles: 100,
+        max_particles: 500,
+        max_beams: 16,
+        update_min_d: 0.05,
+        update_min_a: 0.05,
+        resample_interval: 2,
+        // Few beams: their likelihoods are multiplied, as a sum of cubes makes too little of them.
+        laser_model_type: Model::LikelihoodFieldProb,
+        ..Parameters::default()
+    }
+}
+
+impl Bench {
+    /// Charts the floor of a course, and lets a sound robot drive it once.
+    ///
+    /// # Errors
+    /// A [`NoBench`] for a floor that is too large, or numbers that make no sense.
+    pub fn of(course: &Course, body: &Body) -> Result<Self, NoBench> {
+        let why = |it: &dyn fmt::Display| NoBench::Chart(it.to_string());
+        let settings = ring();
+        let sensor = Sensor::sonars(&settings.mounts, settings.cone_rad, 3, RANGE_M);
+        let sensor = sensor.map_err(|it| why(&it))?;
+        let charted = course.charted();
+        let chart = Chart::new(charted, CELL_M, &sensor, &parameters()).map_err(|it| why(&it))?;
+        let mut far = SonarSurvey::new(RANGE_M, FAR_BEYOND_M)?;
+        let mut near = SonarSurvey::new(RANGE_M, NEAR_BEYOND_M)?;
+        let mut behind = Survey::beyond(2.0)?;
+        let mut waits = Survey::beyond(2.0)?;
+        let streams = Streams::new(0x5EED);
+        let mut ring = Ring::new(&settings, &streams, "survey")?;
+        let mut rover = Rover::new(course, 0);
+        let end = Millimetres((course.track().length() * 1_000.0) as u64);
+        let (period, mut way_m) = (body.period, 0.0);
+        while rover.x() < end && rover.now() < LONGEST {
+            let before = *rover.pose();
+            rover.go(MillimetresPerSecond(body.speed_max.0), end, period);
+            way_m += (rover.pose().translation.vector - before.translation.vector).norm();
+            ring.sense(rover.now(), rover.pose(), &Scene::of(course.surface(), &[]));
+            if let Some(read) = ring.latest(rover.now()) {
+                far.look(read, way_m, period);
+                let shorts: Vec<_> = read.iter().map(|it| it.map(short)).collect();
+                near.look(&shorts, way_m, period);
+            }
+        }
+        behind.watch(rover.now());
+        waits.watch(rover.now());
+        let (behind, waits) = (behind.tail()?, waits.tail()?);
+        Ok(Self { chart, far, near, behind, waits })
+    }
+}

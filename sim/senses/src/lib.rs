@@ -1,0 +1,31 @@
+//! A robot in the plane that is told nothing: it knows its pose by localisation or odometry, and
+//! what is wrong by flags that observers make of its signals (Durand et al., TAROS 2010, Sections
+//! III.B, IV.B, VI.A).
+//!
+//! A [`Bench`] is made once for the runs of a mission: the map as its sonars see it, and a survey
+//! of its course by a sound robot, from which thresholds follow. [`Senses`] are those of one run.
+//! The robot's file says what modules compute ([`Role`]), what flags watch ([`Watch`]), and what
+//! failures harm ([`Harm`]).
+//!
+//! | signal | by |
+//! | --- | --- |
+//! | ranges of 16 sonars | [`Ring`](cotama_devices::Ring) |
+//! | pose in the map | [`Localiser`](cotama_localisation::Localiser), by these ranges |
+//! | pose by encoders | [`Odometry`](cotama_plane::Odometry) |
+//! | speeds, currents, stall, bumpers, voltage | packets of the micro-controller |
+//! | level of the link, heartbeat of the operator | [`Link`](cotama_devices::Link) |
+//! | images | time stamps alone |
+#![cfg_attr(test, allow(clippy::pedantic, clippy::unwrap_used))]
+#![allow(clippy::cast_precision_loss)] // times and lengths of a mission are below 2^53
+#![allow(clippy::cast_sign_loss)] // lengths along a path are at least 0
+
+mod base;
+mod bench;
+mod observing;
+mod senses;
+mod sonars;
+
+pub use bench::{Bench, NoBench};
+pub use cotama_devices::SettingsError;
+pub use cotama_models::robots::{Harm, Harmed, Role, Watch};
+pub use senses::{Senses, Uses};

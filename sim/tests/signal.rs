@@ -1,0 +1,128 @@
+//! Missions by signals alone: no pose and no failure is told to the robot.
+#![allow(clippy::unwrap_used)]
+
+use cotama_core::units::{Millimetres, Millis};
+use cotama_floor::{Ground, Needs, embedded::OFFICE};
+use cotama_models::missions::faults::Faults;
+use cotama_models::missions::{Asked, Mission};
+use cotama_models::robots::{Moment, RobotFile};
+use cotama_sim::options::{FaultChoice, Fidelity, Options};
+use cotama_sim::robots::{Driven, Measured, Run, Script};
+use cotama_sim::run::Outcome;
+use cotama_sim::trace::{Record, Trace, replay};
+use std::sync::LazyLock;
+
+/// A round of the Pioneer over the office: to office B, to the lab, back to the dock.
+static ROUNDS: LazyLock<Mission> = LazyLock::new(|| {
+    let text = include_str!("common/rounds.toml");
+    let robot = RobotFile::shipped("p3dx-delivery").unwrap();
+    let body = robot.robot().body.as_ref().unwrap();
+    let needs = Needs { radius_m: body.radius.0 as f64 / 1_000.0, ..Needs::default() };
+    let office = OFFICE.floor().unwrap();
+    let way = Ground::Drawing(&office).way("office", OFFICE.text, Asked::of(text).unwrap(), needs);
+    Mission::parse_on("rounds.toml", text, Some(robot), Some(&way)).unwrap()
+});
+
+fn options(seed: u64) -> Options {
+    let faults = FaultChoice::None;
+    Options { seed, faults, fidelity: Fidelity::Signal, ..Options::default() }
+}
+
+fn row(id: &str) -> usize {
+    let robot = ROUNDS.robot().unwrap().robot();
+    robot.failures.iter().position(|it| it.id == id).unwrap()
+}
+
+/// The records of a run in which nothing goes wrong.
+fn sound(seed: u64) -> (Trace, Run) {
+    let driven = Driven::with(&ROUNDS, &options(seed)).unwrap();
+    let (trace, _) = Trace::record(&ROUNDS, &options(seed)).unwrap();
+    (trace, driven.run(&Script::default()).unwrap())
+}
+
+#[test]
+fn a_robot_that_is_told_nothing_completes_its_round_without_a_false_alarm() {
+    for seed in 0..8 {
+        let run = sound(seed).1;
+        let ended = (run.outcome, run.alarms.len(), run.touched, run.conduct.len());
+        assert_eq!(ended, (Outcome::Completed, 0, None, 0), "{seed}");
+    }
+}
+
+#[test]
+fn a_robot_knows_its_place_by_sixteen_sonars_to_a_quarter_of_a_metre() {
+    let mut off = Vec::new();
+    for seed in 0..4 {
+        for it in sound(seed).0.records {
+            let Record::Pose(it) = it else { continue };
+            let (told, _) = it.believed.unwrap();
+            let [x, y] = [0, 1].map(|axis: usize| f64::from(told[axis] - it.at_mm[axis]));
+            off.push(x.hypot(y).round() as u64);
+        }
+    }
+    off.sort_unstable();
+    let [median, most] = [off.len() / 2, off.len() * 95 / 100].map(|it| off[it]);
+    assert!(median < 100 && most < 250, "{median} {most} mm");
+}
+
+#[test]
+fn a_run_by_signals_is_run_again_from_its_trace_alone() {
+    let failing = |id: &str| {
+        let text = format!(
+            "format = \"panorama-faults/1\"\n\
+            event = [{{ x_mm = 9000, kind = \"failure\", mode = \"{id}\" }}]\n"
+        );
+        let faults = Faults::parse("failing", &text, &ROUNDS).unwrap();
+        Options { faults: FaultChoice::Given { source: "failing".into(), faults }, ..options(3) }
+    };
+    for id in ["SON2", "ODO1", "LOC2"] {
+        let trace = Trace::record(&ROUNDS, &failing(id)).unwrap().0;
+        let read = Trace::parse("rounds.jsonl", &trace.to_json_lines()).unwrap();
+        assert!(replay(&read).unwrap().identical, "{id}");
+    }
+}
+
+fn measured(id: &str) -> Measured {
+    let driven = Driven::with(&ROUNDS, &options(0)).unwrap();
+    driven.measure(row(id), Moment::Place(Millimetres(13_000)), 0..3).unwrap()
+}
+
+#[test]
+fn failures_of_devices_are_found_by_their_signals() {
+    let found = ["SON2", "ODO1", "MOT2", "BAT2", "P3D1", "CAM1", "COM1"].map(|id| {
+        let it = measured(id);
+        let is_unique = it.taken_for.contains_key(&vec![row(id)]);
+        (id, it.named(row(id)), it.median().unwrap().0, is_unique)
+    });
+    let expected = [
+        ("SON2", 3, 700, true),
+        ("ODO1", 3, 300, false), // WHL1 shows itself by the same flag
+        ("MOT2", 3, 400, true),
+        ("BAT2", 3, 2_000, false), // below the level of BAT1 too
+        ("P3D1", 0, 200, false),   // taken for lost packets at first
+        ("CAM1", 3, 1_500, true),
+        ("COM1", 3, 1_400, true),
+    ];
+    assert_eq!(found, expected);
+}
+
+/// The file assumes 5 s: in a corridor a sound sonar hears nothing for that long, too.
+#[test]
+fn a_sonar_that_hears_nothing_is_found_after_more_way_than_the_file_assumes() {
+    let it = measured("SON1");
+    assert_eq!(it.delays.len(), 3);
+    assert!(it.median().unwrap() > Millis(60_000), "{:?}", it.delays);
+}
+
+#[test]
+fn a_round_by_signals_ends_at_the_same_place_on_every_machine() {
+    let (trace, run) = sound(0);
+    let last = trace.records.iter().rev().find_map(|it| match it {
+        Record::Pose(it) => Some((it.at_mm, it.believed.unwrap())),
+        _ => None,
+    });
+    assert_eq!(
+        (run.time, last.unwrap()),
+        (Millis(186_400), ([8_017, 676], ([8_009, 729], -1_174)))
+    );
+}
