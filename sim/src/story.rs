@@ -285,6 +285,7 @@ impl Point<'_> {
         let Some(it) = chain.diagnosis else { return Some("nobody noticed it".into()) };
         let taken = match &it.candidates[..] {
             [] => "unexplained".into(),
+            all if !all.contains(&chain.failure.mode) => format!("taken for {}", all.join(", ")),
             [one] => format!("it is {one}"),
             several => format!("one of {}, not unique", several.join(", ")),
         };

@@ -122,17 +122,21 @@ impl Failures {
     }
 
     /// Signals of the robot raise and lower flags; returns those that are raised, and the failures
-    /// under way which they show.
+    /// under way which they show: all that they speak of, or else the last one that harms a device
+    /// and was not found, as what it is taken for.
     pub(crate) fn sense(&mut self, robot: &Robot, up: u64) -> (u64, Vec<usize>) {
         let new = up & !self.signals.replace(up).unwrap_or(0);
-        let mut seen = Vec::new();
+        let (mut seen, mut last) = (Vec::new(), None);
         for (at, it) in self.all.iter().enumerate().filter(|it| !it.1.over && !it.1.found) {
-            let Some(row) = robot.failures.get(it.number) else { continue };
+            let row = robot.failures.get(it.number).filter(|it| it.harm.is_some());
+            let Some(row) = row else { continue };
             let own = row.flags.iter().chain(&row.sometimes);
             let own = own.fold(0_u64, |set, it| set | 1 << (it % 64));
-            if row.harm.is_some() && own & new != 0 {
-                seen.push(at);
-            }
+            last = Some(at);
+            seen.extend((own & new != 0).then_some(at));
+        }
+        if seen.is_empty() && new != 0 {
+            seen.extend(last);
         }
         (new, seen)
     }

@@ -64,11 +64,9 @@ impl Driven<'_> {
             measured.runs += 1;
             let before = run.alarms.iter().any(|it| it.0 < conduct.injected);
             measured.false_alarms += u64::from(before);
-            let other = run.alarms.iter().find(|it| it.0 >= conduct.injected);
-            let own = conduct.detected.map(|at| (at, &conduct.taken_for));
-            if let Some((at, taken)) = own.or(other.map(|it| (it.0, &it.1))) {
+            if let Some(at) = conduct.detected {
                 measured.delays.push(Millis(at.0 - conduct.injected.0));
-                *measured.taken_for.entry(taken.clone()).or_default() += 1;
+                *measured.taken_for.entry(conduct.taken_for.clone()).or_default() += 1;
             }
         }
         measured.delays.sort_unstable();

@@ -176,8 +176,8 @@ pub struct Run {
     pub used: [u64; 2],
     /// How often the operator was asked by the supervisors.
     pub operator_requests: u64,
-    /// Flags that signals raised of no failure under way that they show: when, and the rows that
-    /// they were taken for.
+    /// Flags that signals raised while no failure was under way that harms a device and was not
+    /// found: when, and the rows that they were taken for.
     pub alarms: Vec<(Millis, Vec<usize>)>,
     /// Events that the supervisors accepted, each with the number of the round before it.
     pub told: Vec<(u64, Told)>,

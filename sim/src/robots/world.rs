@@ -202,11 +202,8 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let mut recording = Recording::new(&mut silent);
         while self.end().is_none() {
             self.step(&mut recording);
-            let alarm = self.run.alarms.last().map(|it| it.0);
             let is_over = self.run.conduct.first().is_some_and(|it| {
-                it.detected.is_some()
-                    || alarm >= Some(it.injected)
-                    || self.now.0 >= it.injected.0.saturating_add(window.0)
+                it.detected.is_some() || self.now.0 >= it.injected.0.saturating_add(window.0)
             });
             if is_over {
                 break;
