@@ -52,8 +52,8 @@ pub(crate) struct Sensing<'c> {
     rover: Rover<'c>,
     senses: Senses<'c>,
     uses: Uses,
-    /// The speed that was commanded last, and since when no command is heard.
-    last: MillimetresPerSecond,
+    /// The speed and the end that were commanded last, and for how long no command was heard.
+    last: (MillimetresPerSecond, Millimetres),
     unheard: Millis,
 }
 
@@ -74,7 +74,7 @@ impl<'c> Mover<'c> {
                 rover,
                 senses,
                 uses: Uses { modules: 0, is_led: false, moves: false },
-                last: MillimetresPerSecond(0),
+                last: (MillimetresPerSecond(0), Millimetres(0)),
                 unheard: Millis(0),
             })),
             Err(why) => {
@@ -230,15 +230,16 @@ impl Sensing<'_> {
     /// Goes on as commanded, no faster than ranges leave; without commands as the last one said,
     /// until the micro-controller stops the motors.
     fn go(&mut self, towards: MillimetresPerSecond, end: Millimetres, time: Millis) {
-        let towards = if self.senses.is_heard() {
+        let (towards, end) = if self.senses.is_heard() {
             self.unheard = Millis(0);
-            MillimetresPerSecond(towards.0.min(self.senses.limit_mm_s()))
+            (MillimetresPerSecond(towards.0.min(self.senses.limit_mm_s())), end)
         } else {
             self.unheard.0 += time.0;
             let stops = self.unheard >= FIRMWARE_WATCHDOG;
-            if stops { MillimetresPerSecond(0) } else { self.last }
+            let (last, end) = self.last;
+            (if stops { MillimetresPerSecond(0) } else { last }, end)
         };
-        self.last = towards;
+        self.last = (towards, end);
         self.rover.go(towards, end, time);
         self.senses.sense(&mut self.rover, self.uses, time);
     }
