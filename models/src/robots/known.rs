@@ -79,8 +79,8 @@ pub const CHARGES: RangeInclusive<i64> = 1..=10_000_000;
 pub const CELLS: RangeInclusive<i64> = 1..=1_000;
 /// Thousandths of the commanded speed that are left.
 pub const SLOWED: RangeInclusive<i64> = 1..=999;
-/// Units of devices that a failure harms.
-pub const HARM_UNITS: RangeInclusive<i64> = 0..=63;
+/// Sonars that a failure harms; of two sides, the first ones.
+pub const HARM_UNITS: RangeInclusive<i64> = 0..=15;
 /// Parts that a harm takes, in thousandths.
 pub const HARMED: RangeInclusive<i64> = 1..=1_000;
 /// Effects of failures on motion, with their names.

@@ -3,7 +3,7 @@
 use crate::missions::Diagnostic;
 use crate::missions::reader::fields::Fields;
 use crate::robots::known::{HARM_UNITS, HARMED};
-use crate::robots::signals::{HARMS, Harmed, ROLES, Role, TOLD, WATCHES, Watch};
+use crate::robots::signals::{HARMS, Harm, Harmed, ROLES, Role, TOLD, WATCHES, Watch};
 
 /// The algorithms of a module.
 pub(super) fn roles(fields: &mut Fields<'_>) -> Option<Vec<Role>> {
@@ -44,8 +44,14 @@ fn harmed(mut fields: Fields<'_>) -> Option<Harmed> {
     let harm = harm.and_then(|it| fields.index_of(&it, "harm", HARMS.iter().map(|it| it.0)));
     let unit = fields.optional_integer("unit", HARM_UNITS);
     let permille = fields.optional_integer("permille", HARMED);
+    let harm = harm.and_then(|it| HARMS.get(it)).map(|it| it.1);
+    let is_sonar = matches!(harm, Some(Harm::SonarFar | Harm::SonarNear));
+    if !is_sonar && harm.is_some() && matches!(unit, Ok(Some(2_u8..))) {
+        let it = Diagnostic::new(fields.span_of("unit"), "there are two sides", "no side");
+        fields.report(it.help("write 0 for the left one, or 1 for the right one"));
+    }
     fields.finish();
-    let harm = HARMS.get(harm?)?.1;
+    let harm = harm?;
     let (unit, permille) = (unit.ok()?.unwrap_or(0), permille.ok()?.unwrap_or(500));
     Some(Harmed { harm, unit, permille })
 }

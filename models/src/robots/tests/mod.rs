@@ -2,6 +2,7 @@ mod broken;
 mod powered;
 mod reactions;
 mod settings;
+mod signals;
 
 use super::supervisors::{OwnedSystem, system, word};
 use super::{Decision, EMBEDDED, Robot, Situation, Where, decide, embedded};
