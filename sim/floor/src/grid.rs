@@ -2,6 +2,7 @@
 
 mod columns;
 mod march;
+mod text;
 
 use crate::geometry::{Bounds, Point, Pose, Ray, Vector, meets_box};
 use crate::octants::{MAX_SIDE, Octants, Walk};

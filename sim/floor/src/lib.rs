@@ -43,6 +43,7 @@ mod field;
 mod floor;
 mod geometry;
 mod grid;
+mod held;
 pub mod map_server;
 mod octants;
 mod path;
@@ -60,6 +61,7 @@ pub use floor::{
 };
 pub use geometry::{Bounds, Point, Pose, Ray, Vector, is_inside};
 pub use grid::{Cell, Grid, GridError, MAX_CELLS};
+pub use held::Held;
 pub use path::{Path, Projection};
 pub use route::{Needs, Planner, RouteError};
 pub use segments::{MAX_SEGMENTS, MAX_SIZE_M, MAX_SOLIDS, Segment, Segments, SegmentsError};

@@ -257,6 +257,16 @@ fn places(out: &mut Elements, view: &Pixels, floor: &Floor) {
 /// assert!(picture::grid("tiny", &grid, None).contains("class=\"unknown\""));
 /// ```
 pub fn grid(name: &str, grid: &Grid, path: Option<&Path>) -> String {
+    grid_under(name, grid, path, |_| String::new())
+}
+
+/// Draws the same under more markup, which is made with the pixels of points and those of a metre.
+pub fn grid_under(
+    name: &str,
+    grid: &Grid,
+    path: Option<&Path>,
+    over: impl FnOnce(&Pixels) -> String,
+) -> String {
     let bounds = grid.bounds();
     let scale = MAP / bounds.width();
     let view = Pixels { least: bounds.least, top: bounds.most.y, scale };
@@ -292,6 +302,7 @@ pub fn grid(name: &str, grid: &Grid, path: Option<&Path>) -> String {
     let rules = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
     let metres = rules.into_iter().find(|it| it * scale >= 60.0).unwrap_or(200.0);
     rule(&mut out, &view, size, metres);
+    out.push_str(&over(&view));
     out.push_str("</svg>\n");
     out.into_string()
 }

@@ -44,8 +44,13 @@ impl Ground<'_> {
             Self::Map(grid) => of_map(grid, &asked, needs),
         };
         let Answer { start, doors, paths, zones } = answer;
+        // A map is held as its cells: its own text names an image, which is another file.
+        let text = match self {
+            Self::Drawing(_) => text.into(),
+            Self::Map(grid) => grid.to_text().into(),
+        };
         let legs = paths.into_iter().map(|it| it.map(|it| leg(&it))).collect();
-        Way { source: source.to_owned(), text: text.into(), asked, start, doors, legs, zones }
+        Way { source: source.to_owned(), text, asked, start, doors, legs, zones }
     }
 }
 

@@ -4,7 +4,7 @@ use crate::corridors;
 use crate::drivetrain::{Drivetrain, SPARE};
 use crate::track::Track;
 use cotama_devices::{Habits, People, Routes, SettingsError, Streams};
-use cotama_floor::{Floor, Needs, Planner, Point, Pose, Segments, Surface, Version, metres};
+use cotama_floor::{Floor, Held, Needs, Planner, Point, Pose, Surface, metres};
 use cotama_models::missions::{Leg, Mission, Way};
 use std::fmt;
 
@@ -12,8 +12,9 @@ use std::fmt;
 #[derive(Clone, Debug)]
 pub struct Course {
     way: Way,
-    surface: Segments,
-    charted: Segments,
+    /// The floor as it is, and as the robot's map has it.
+    real: Held,
+    charted: Held,
     drivetrain: Drivetrain,
     track: Track,
     back: Track,
@@ -30,8 +31,6 @@ const PEOPLE_PLACES: usize = 12;
 pub enum NoCourse {
     /// The mission names no robot with a body.
     Body,
-    /// The floor is a map: robots drive over drawings only.
-    Map,
     /// The path is so long that no floor holds it.
     Long,
     /// The floor cannot be driven on.
@@ -46,7 +45,6 @@ impl fmt::Display for NoCourse {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Body => f.write_str("the mission names no robot with a body"),
-            Self::Map => f.write_str("robots drive over drawn floors, not over maps yet"),
             Self::Long => f.write_str("the path is too long for the corridors of one floor"),
             Self::Floor(why) => write!(f, "the floor cannot be driven on: {why}"),
             Self::People(why) => write!(f, "people cannot walk on this floor: {why}"),
@@ -59,7 +57,7 @@ impl std::error::Error for NoCourse {}
 
 /// Leads a way around things that are not on the map of the robot, as avoidance that knows them
 /// would. A leg is as long for the mission as it was: lengths along it are in proportion.
-fn around(way: Way, surface: &Segments, drivetrain: &Drivetrain) -> Way {
+fn around(way: Way, surface: &dyn Surface, drivetrain: &Drivetrain) -> Way {
     let radius_m = drivetrain.footprint.radius() + SPARE;
     let mut planner = None;
     let mut led = |leg: Leg| {
@@ -88,7 +86,7 @@ fn in_mm(it: &Point) -> [i32; 2] {
 }
 
 /// Whether a robot can follow straight pieces without touching anything.
-fn is_free(points: &[[i32; 2]], surface: &Segments, drivetrain: &Drivetrain) -> bool {
+fn is_free(points: &[[i32; 2]], surface: &dyn Surface, drivetrain: &Drivetrain) -> bool {
     points.iter().zip(points.iter().skip(1)).all(|(from, to)| {
         let (from, to) = (metres(*from), metres(*to));
         let way = to - from;
@@ -119,13 +117,10 @@ impl Course {
             Some(it) => it.clone(),
             None => corridors::along(mission.path_length).ok_or(NoCourse::Long)?,
         };
-        let floor = Floor::parse(&way.source, &way.text).map_err(|_| NoCourse::Map)?;
         let why = |it: String| NoCourse::Floor(it);
-        let floor =
-            floor.with_doors(&way.asked.open, &way.asked.close).map_err(|it| why(it.message))?;
-        let surface = floor.surface(Version::Real, &[]).map_err(|it| why(it.to_string()))?;
-        let charted = floor.surface(Version::Charted, &[]).map_err(|it| why(it.to_string()))?;
-        let way = around(way, &surface, &drivetrain);
+        let [real, charted] = Held::of(&way).map_err(why)?;
+        let surface = real.surface();
+        let way = around(way, surface, &drivetrain);
         let radius = drivetrain.footprint.radius();
         let is_tight = |at: Point| surface.clearance(at, radius + TIGHT) < radius + TIGHT;
         let track = Track::of(&way, &drivetrain, is_tight)
@@ -134,17 +129,17 @@ impl Course {
             return Err(NoCourse::Start);
         }
         let back = track.back(&drivetrain);
-        let course = Self { way, surface, charted, drivetrain, track, back, people: None };
-        if people == 0 { Ok(course) } else { course.among(people, &floor) }
+        let course = Self { way, real, charted, drivetrain, track, back, people: None };
+        if people == 0 { Ok(course) } else { course.among(people) }
     }
 
     /// The same with people who walk between the places of the floor.
-    fn among(self, count: usize, floor: &Floor) -> Result<Self, NoCourse> {
+    fn among(self, count: usize) -> Result<Self, NoCourse> {
         let why = |it: &dyn fmt::Display| NoCourse::People(it.to_string());
         let radius_m = Habits::default().radius_m;
         let needs = Needs { radius_m, cell_m: 0.1, ..Needs::default() };
-        let planner = Planner::new(&self.surface, needs).map_err(|it| why(&it))?;
-        let places: Vec<_> = floor.places.iter().map(|it| metres(it.at)).collect();
+        let planner = Planner::new(self.real.surface(), needs).map_err(|it| why(&it))?;
+        let places = self.places();
         if places.len() < 2 {
             return Err(why(&"it has less than two places"));
         }
@@ -153,6 +148,22 @@ impl Course {
         let course = Self { people: Some((count, routes)), ..self };
         course.people(0).map_err(|it| why(&it))?;
         Ok(course)
+    }
+
+    /// Returns the places of the floor; of a map, those of the mission.
+    fn places(&self) -> Vec<Point> {
+        if let Ok(floor) = Floor::parse(&self.way.source, &self.way.text) {
+            return floor.places.iter().map(|it| metres(it.at)).collect();
+        }
+        let legs = self.way.legs.iter().flatten();
+        let ends = legs.flat_map(|it| [it.points.first(), it.points.last()]).flatten();
+        let mut places: Vec<Point> = Vec::new();
+        for it in ends.map(|it| metres(*it)) {
+            if !places.contains(&it) {
+                places.push(it);
+            }
+        }
+        places
     }
 
     /// Returns the people of a run with this seed, where they are at its start.
@@ -168,13 +179,13 @@ impl Course {
     }
 
     /// Returns the floor as it is.
-    pub const fn surface(&self) -> &Segments {
-        &self.surface
+    pub fn surface(&self) -> &dyn Surface {
+        self.real.surface()
     }
 
     /// Returns the floor as the robot's map has it.
-    pub const fn charted(&self) -> &Segments {
-        &self.charted
+    pub fn charted(&self) -> &dyn Surface {
+        self.charted.surface()
     }
 
     /// Returns the wheels.

@@ -6,7 +6,7 @@
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_floor::embedded::OFFICE;
 use cotama_floor::{
-    Bounds, Footprint, Ground, Kind, Needs, Point, Pose, Segment, Segments, Surface,
+    Bounds, Cell, Footprint, Grid, Ground, Kind, Needs, Point, Pose, Segment, Segments, Surface,
 };
 use cotama_models::missions::{Asked, Mission, embedded};
 use cotama_models::robots::{Robot, RobotFile};
@@ -231,4 +231,38 @@ proptest! {
         let off = (turned * it).translation.vector - other.translation.vector;
         prop_assert!(off.norm() < 1e-9);
     }
+}
+
+/// A hall of 12 m x 8 m in cells of 10 cm, with a wall across that leaves 2 m free.
+fn cells() -> Grid {
+    let cell = |at: usize| {
+        let (x, y) = (at % 120, at / 120);
+        let is_wall = x == 0 || y == 0 || x == 119 || y == 79 || (x == 60 && y < 60);
+        if is_wall { Cell::Occupied } else { Cell::Free }
+    };
+    let cells: Vec<_> = (0..120 * 80).map(cell).collect();
+    Grid::new(120, &cells, 0.1, Point::origin()).unwrap()
+}
+
+#[test]
+fn a_robot_drives_over_a_map_of_cells_as_over_a_drawing() {
+    let text = "format = \"panorama-mission/2\"\nname = \"hall\"\nrobot = \"p3dx-delivery\"\n\
+        floor = \"hall.yaml\"\nfrom = \"2000,2000\"\nlimits = { order = [\"duration\", \
+        \"energy\"], duration_ms = 900_000, energy_mj = 90_000_000 }\n[[objective]]\nid = \"To\"\n\
+        does = \"drive\"\nto = \"10000,2000\"\n";
+    let robot = RobotFile::shipped("p3dx-delivery").unwrap();
+    let needs = Needs { radius_m: 0.26, ..Needs::default() };
+    let way = Ground::Map(&cells()).way("hall.yaml", "", Asked::of(text).unwrap(), needs);
+    let mission = Mission::parse_on("hall.toml", text, Some(robot), Some(&way)).unwrap();
+    let course = Course::of(&mission, 2).unwrap();
+    let mut rover = Rover::new(&course, 1);
+    let end = mission.path_length;
+    for _ in 0..2_000 {
+        rover.go(MillimetresPerSecond(300), end, Millis(100));
+        assert!(!rover.touches());
+    }
+    assert_eq!(rover.x(), end);
+    let at = rover.pose().translation.vector;
+    assert!((at.x - 10.0).abs() < 0.01 && (at.y - 2.0).abs() < 0.01, "{at}");
+    assert!(end.0 > 12_000 && end.0 < 16_000, "{end:?}"); // around the wall
 }

@@ -1,16 +1,16 @@
 //! The floor of a run, as its trace holds it.
 
 use crate::NoRecording;
-use cotama_floor::{Bounds, Floor, Point, Segments, Surface, Version, metres};
+use cotama_floor::{Bounds, Held, Point, metres};
 use cotama_sim::trace::Header;
 
 /// The floor of a run, and the path over it.
 #[derive(Debug)]
 pub(crate) struct Ground {
     /// The floor as sensors meet it.
-    pub(crate) real: Segments,
+    pub(crate) real: Held,
     /// The floor as the robot knows it.
-    charted: Segments,
+    charted: Held,
     /// Corners of the path.
     pub(crate) path: Vec<Point>,
 }
@@ -37,22 +37,18 @@ impl Ground {
     /// Returns the floor of a run with its doors as the mission has them.
     pub(crate) fn of(header: &Header) -> Result<Self, NoRecording> {
         let way = header.floor.as_ref().ok_or(NoRecording::Line)?.way(&header.mission);
-        let wrong = |why: String| NoRecording::Floor(why);
-        let floor = Floor::parse(&way.source, &way.text).map_err(|it| wrong(it.to_string()))?;
-        let floor =
-            floor.with_doors(&way.asked.open, &way.asked.close).map_err(|it| wrong(it.message))?;
-        let surface =
-            |version| floor.surface(version, &[]).map_err(|it| NoRecording::Floor(it.to_string()));
+        let [real, charted] = Held::of(&way).map_err(NoRecording::Floor)?;
         let mut path: Vec<_> = way.points().iter().map(|it| metres(*it)).collect();
         path.dedup();
-        Ok(Self { real: surface(Version::Real)?, charted: surface(Version::Charted)?, path })
+        Ok(Self { real, charted, path })
     }
 
     /// Returns the map of the robot. A cell is occupied if a disc in it cannot be free: it comes
     /// as near to something as half its width, so that no wall has a gap.
     pub(crate) fn raster(&self) -> Raster {
-        let Bounds { least, .. } = self.charted.bounds();
-        let (width_m, height_m) = (self.charted.bounds().width(), self.charted.bounds().height());
+        let Bounds { least, .. } = self.charted.surface().bounds();
+        let (width_m, height_m) =
+            (self.charted.surface().bounds().width(), self.charted.surface().bounds().height());
         let mut cell_m = CELL_M;
         while (width_m / cell_m).ceil() * (height_m / cell_m).ceil() > MOST_CELLS {
             cell_m *= 2.0;
@@ -65,7 +61,7 @@ impl Ground {
             for x in 0..width {
                 let middle = [x, y].map(|it| (it as f64 + 0.5) * cell_m);
                 let at = least + Point::from(middle).coords;
-                let room = self.charted.clearance(at, cell_m);
+                let room = self.charted.surface().clearance(at, cell_m);
                 cells.push(if room <= reach { OCCUPIED } else { FREE });
             }
         }

@@ -121,7 +121,7 @@ impl File {
         self.put("/tf", t_us, &messages::transforms(t_us, &frames));
         self.put("/pose", t_us, &messages::pose(t_us, "map", &truth));
         self.put("/odom", t_us, &messages::pose(t_us, "odom", &odometry));
-        let (scan, cones) = sensors.sense(&truth, &ground.real);
+        let (scan, cones) = sensors.sense(&truth, ground.real.surface());
         let scan = messages::scan(t_us, "laser", &sensors.laser, sensors.laser_m, &scan);
         self.put("/scan", t_us, &scan);
         self.put("/sonars", t_us, &messages::cones(t_us, "base_link", &cones));

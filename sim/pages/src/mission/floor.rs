@@ -7,7 +7,7 @@ use crate::format::{metres as in_metres, moment};
 use crate::svg::fixed;
 use cotama_core::text::markup;
 use cotama_floor::picture::{self, Pixels};
-use cotama_floor::{Floor, Path, metres};
+use cotama_floor::{Floor, Grid, Path, metres};
 use cotama_models::missions::Way;
 use cotama_sim::trace::Record;
 use std::fmt::Write;
@@ -18,16 +18,17 @@ const MOST: usize = 4_000;
 /// The radius of a person, in metres.
 const PERSON_M: f64 = 0.25;
 
-/// The section; nothing for a mission on a line, or on a map whose picture the trace does not hold.
+/// The section; nothing for a mission on a line.
 pub(super) fn section(view: &View<'_>) -> String {
     let Some(way) = view.way.as_ref() else { return String::new() };
-    let Ok(floor) = Floor::parse(&way.source, &way.text) else { return String::new() };
+    let floor = Floor::parse(&way.source, &way.text).ok();
+    let grid = Grid::parse(&way.text);
     let path = Path::new(way.points().iter().map(|it| metres(*it)).collect());
     let corners = corners(way);
     let radius = view.mission.as_ref().ok().and_then(|it| it.robot()?.robot().body.as_ref());
     let radius_m = radius.map_or(0.26, |it| it.radius.0 as f64 / 1_000.0);
     let mut data = String::new();
-    let drawn = picture::floor_under(&floor, path.as_ref(), |pixels| {
+    let over = |pixels: &Pixels| {
         let at = |corner: &Corner| pixels.at(metres(corner.at)).map(fixed);
         let all: Vec<_> = corners
             .iter()
@@ -59,7 +60,15 @@ pub(super) fn section(view: &View<'_>) -> String {
              <path d=\"M0 0H{ahead}\"/></g>"
         );
         over
-    });
+    };
+    let (name, drawn) = match (&floor, &grid) {
+        (Some(it), _) => (it.name.as_str(), picture::floor_under(it, path.as_ref(), over)),
+        (None, Some(it)) => {
+            let name = way.source.rsplit('/').next().unwrap_or_default();
+            (name, picture::grid_under(name, it, path.as_ref(), over))
+        }
+        (None, None) => return String::new(),
+    };
     let end = view.last().1 / 1_000;
     format!(
         "<section class=\"onfloor\"><h2>On the floor</h2>\n<p class=\"note\">{}, {} from place to \
@@ -68,7 +77,7 @@ pub(super) fn section(view: &View<'_>) -> String {
          Play</button> <input type=\"range\" min=\"0\" max=\"{end}\" step=\"100\" value=\"0\" \
          aria-label=\"Time of the run\"> <output></output></p>\n<script>\nvar RUN={{{data}}};\n{}\
          </script></section>\n",
-        markup(&floor.name),
+        markup(name),
         in_metres(way.length().0),
         include_str!("floor.js")
     )
