@@ -3,7 +3,7 @@
 use cotama_models::robots;
 
 /// A battery: a voltage that its charge gives behind an internal resistance (Plett, Battery
-/// Management Systems, vol. 1, 2015, Section 2.3). Empty, or below its cutoff, it is off for good.
+/// Management Systems, vol. 1, 2015). Empty, or below its cutoff, it is off for good.
 ///
 /// ```
 /// use cotama_models::robots::Robot;

@@ -7,7 +7,7 @@ use cotama_models::robots;
 ///
 /// A direct-current motor: torque is `k` times the current, the voltage of a turning motor `k`
 /// times its speed, and the rest of the supply falls at the winding (Siciliano, Sciavicco, Villani,
-/// Oriolo, Robotics, 2009, Section 5.2.1, without the inductance, which is quick).
+/// Oriolo, Robotics, 2009, without the inductance, which is quick).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motors {
     /// Torque for a current, in Nm/A, and voltage for a speed, in Vs.
