@@ -214,7 +214,7 @@ pub(crate) struct ProbeRow<'a> {
     pub(crate) shows: Vec<&'a str>,
 }
 
-/// How the signals of a robot in the plane detect its failures, one run a seed.
+/// Detection of the failures of a robot in the plane by its signals, one run a seed.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct MeasureAnswer {
     #[schemars(extend("const" = "cotama/measure/1"))]
@@ -223,9 +223,9 @@ pub(crate) struct MeasureAnswer {
     pub(crate) robot: String,
     /// Runs of each failure.
     pub(crate) seeds: u64,
-    /// Where on its path the robot is when a failure happens.
+    /// Place of the robot on its path when a failure happens, in mm.
     pub(crate) x_mm: u64,
-    /// What is not found in this time counts as not found.
+    /// Time after a failure in which it has to be found, in ms.
     pub(crate) window_ms: u64,
     /// One row for each failure that harms a device.
     pub(crate) rows: Vec<MeasureRow>,
@@ -252,7 +252,7 @@ pub(crate) struct MeasureRow {
     pub(crate) assumed_ms: u64,
     /// Runs in which a flag was raised before anything failed.
     pub(crate) false_alarms: u64,
-    /// What it was taken for, and in how many runs.
+    /// Rows that it was taken for, and in how many runs.
     pub(crate) taken_for: Vec<TakenRow>,
 }
 

@@ -69,7 +69,7 @@ pub const VOLTAGES: RangeInclusive<i64> = 1_000..=1_000_000;
 pub const RESISTANCES: RangeInclusive<i64> = 1..=1_000_000;
 /// Currents of motors in mA.
 pub const CURRENTS: RangeInclusive<i64> = 1..=1_000_000;
-/// How fast wheels turn without a load, in thousandths of rad/s.
+/// Speeds of wheels without a load, in thousandths of rad/s.
 pub const NO_LOADS: RangeInclusive<i64> = 100..=1_000_000;
 /// Forces of rolling in thousandths of a weight.
 pub const ROLLINGS: RangeInclusive<i64> = 0..=1_000;

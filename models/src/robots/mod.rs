@@ -157,7 +157,7 @@ pub struct Body {
     pub wheels: Wheels,
     /// Their motors; `None` where nothing is known of them.
     pub motors: Option<Motors>,
-    /// Its battery; `None` where nothing is known of it.
+    /// Battery; `None` where nothing is known of it.
     pub battery: Option<Battery>,
     /// Source of what is said of it; may be empty.
     pub source: String,

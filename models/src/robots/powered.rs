@@ -7,7 +7,7 @@ use cotama_core::units::Millis;
 pub struct Motors {
     /// The voltage for which they are made, in mV.
     pub voltage_mv: u64,
-    /// How fast a wheel turns at that voltage without a load, in thousandths of rad/s.
+    /// Speed of a wheel at that voltage without a load, in thousandths of rad/s.
     pub no_load_mrad_s: u64,
     /// The resistance of a winding, in mΩ.
     pub resistance_mohm: u64,
@@ -17,7 +17,7 @@ pub struct Motors {
     pub rolling_permille: u64,
     /// The mass that they move, in g: that of the body.
     pub mass_g: u64,
-    /// How long a wheel must be held before its motor counts as stalled.
+    /// Time for which a wheel must be held before its motor counts as stalled.
     pub stall: Millis,
 }
 

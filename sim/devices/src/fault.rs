@@ -3,6 +3,7 @@
 use crate::sensed::MAX_TIME;
 use crate::settings::{SettingsError, within};
 use cotama_core::units::Millis;
+use cotama_streams::Stream;
 
 /// The effect of a fault on a stream of readings, in the unit of the readings.
 ///
@@ -50,7 +51,18 @@ impl Mode {
     pub fn fading(by_db: f64, during: Millis) -> Self {
         Self::Drift { per_s: -by_db * 1_000.0 / during.0.max(1) as f64, most: by_db }
     }
+}
 
+/// A thing that a fault does, as data.
+pub trait Effect: Copy {
+    /// Looks whether its numbers make sense.
+    ///
+    /// # Errors
+    /// Numbers that are out of range.
+    fn check(self) -> Result<(), SettingsError>;
+}
+
+impl Effect for Mode {
     fn check(self) -> Result<(), SettingsError> {
         const MOST: f64 = 1e12;
         match self {
@@ -82,7 +94,8 @@ pub struct Intermittent {
     pub away: Millis,
 }
 
-/// A fault of a stream of readings: its effect, when, and whether it comes and goes.
+/// A fault: its effect, on a stream of readings where nothing else is said; when, and whether it
+/// comes and goes.
 ///
 /// ```
 /// use cotama_core::units::Millis;
@@ -97,21 +110,21 @@ pub struct Intermittent {
 /// );
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fault {
-    mode: Mode,
+pub struct Fault<E = Mode> {
+    effect: E,
     from: Millis,
     until: Option<Millis>,
     intermittent: Option<Intermittent>,
 }
 
-impl Fault {
+impl<E: Effect> Fault<E> {
     /// A fault from the beginning on, for good.
     ///
     /// # Errors
     /// Numbers of the effect that are out of range.
-    pub fn new(mode: Mode) -> Result<Self, SettingsError> {
-        mode.check()?;
-        Ok(Self { mode, from: Millis::ZERO, until: None, intermittent: None })
+    pub fn new(effect: E) -> Result<Self, SettingsError> {
+        effect.check()?;
+        Ok(Self { effect, from: Millis::ZERO, until: None, intermittent: None })
     }
 
     /// Returns the fault, beginning at a time.
@@ -137,12 +150,12 @@ impl Fault {
         Ok(Self { intermittent: Some(Intermittent { there, away }), ..self })
     }
 
-    /// The effect.
-    pub fn mode(&self) -> Mode {
-        self.mode
+    /// Returns the effect.
+    pub fn effect(&self) -> E {
+        self.effect
     }
 
-    /// The time when it begins.
+    /// Returns the time when it begins.
     pub fn begins(&self) -> Millis {
         self.from
     }
@@ -155,5 +168,50 @@ impl Fault {
     /// Whether it has begun, and has not ended, at a time.
     pub fn is_due(&self, now: Millis) -> bool {
         self.from <= now && self.until.is_none_or(|until| now < until)
+    }
+}
+
+/// The times at which an intermittent fault comes and goes.
+#[derive(Clone, Copy, Debug)]
+pub struct Phase {
+    is_there: bool,
+    until: Millis,
+}
+
+/// The most times that a fault comes and goes between two questions.
+const MAX_CHANGES: usize = 1 << 16;
+
+impl Phase {
+    /// A fault that comes for the first time when it begins.
+    pub fn of<E: Effect>(fault: &Fault<E>) -> Self {
+        Self { is_there: false, until: fault.begins() }
+    }
+
+    /// Whether the fault is there, after it came and went as often as the time tells. Times are
+    /// asked in their order.
+    pub fn is_there<E: Effect>(
+        &mut self,
+        fault: &Fault<E>,
+        chance: &mut Stream,
+        now: Millis,
+    ) -> bool {
+        if !fault.is_due(now) {
+            return false;
+        }
+        let Some(Intermittent { there, away }) = fault.pattern() else { return true };
+        // Who asks once in a long time gets no more changes than this, and goes on from there.
+        for _ in 0..MAX_CHANGES {
+            if now < self.until {
+                break;
+            }
+            let is_there = !self.is_there;
+            let mean = if is_there { there } else { away };
+            // Rounded up to 1 ms, so that time goes on.
+            let drawn = -libm::log(1.0 - chance.part()) * mean.0 as f64;
+            let until = Millis(self.until.0.saturating_add(drawn as u64 + 1));
+            *self = Self { is_there, until };
+        }
+        self.until = self.until.max(now);
+        self.is_there
     }
 }

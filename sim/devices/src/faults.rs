@@ -1,7 +1,6 @@
 //! Faults at work on a stream of readings.
 
-use crate::fault::{Fault, Intermittent, Mode};
-
+use crate::fault::{Fault, Mode, Phase};
 use crate::sensed::{Pipe, Rate};
 use crate::settings::{SettingsError, within};
 use cotama_core::units::Millis;
@@ -9,8 +8,6 @@ use cotama_streams::{Stream, Streams};
 
 /// The most faults of one stream of readings.
 pub const MAX_FAULTS: usize = 64;
-/// The most times that a fault comes and goes between two readings.
-const MAX_CHANGES: usize = 1 << 16;
 
 /// Faults of a device, which change each frame of its readings one after the other: a scan has a
 /// frame of its ranges, a level, a counter or a sonar one of a single number.
@@ -45,13 +42,6 @@ struct Active {
     memory: Memory,
 }
 
-/// The times at which an intermittent fault comes and goes.
-#[derive(Clone, Copy, Debug)]
-struct Phase {
-    is_there: bool,
-    until: Millis,
-}
-
 /// The readings that a fault keeps.
 #[derive(Clone, Debug)]
 enum Memory {
@@ -82,7 +72,7 @@ impl Faults {
     ) -> Result<Self, SettingsError> {
         within("the number of faults", faults.len() as f64, 0.0, MAX_FAULTS as f64)?;
         let active = |(at, fault): (usize, &Fault)| {
-            let memory = match fault.mode() {
+            let memory = match fault.effect() {
                 Mode::Frozen => Memory::Last(vec![0.0; width], false),
                 Mode::Delay(by) => {
                     Memory::Late(Pipe::new(width, 0.0, Rate { period, latency: by })?)
@@ -90,7 +80,7 @@ impl Faults {
                 _ => Memory::None,
             };
             let chance = streams.stream(&format!("{name} fault {at}"));
-            let phase = Phase { is_there: false, until: fault.begins() };
+            let phase = Phase::of(fault);
             Ok(Active { fault: *fault, chance, phase, memory })
         };
         let all = faults.iter().enumerate().map(active).collect::<Result<_, _>>()?;
@@ -116,8 +106,8 @@ impl Faults {
 
 impl Active {
     fn apply(&mut self, now: Millis, frame: &mut [f64], numbers: usize) -> bool {
-        let is_there = self.is_there(now);
-        match (&mut self.memory, self.fault.mode()) {
+        let is_there = self.phase.is_there(&self.fault, &mut self.chance, now);
+        match (&mut self.memory, self.fault.effect()) {
             (Memory::Last(last, known), _) => {
                 if is_there && *known {
                     copy(last, frame);
@@ -162,28 +152,6 @@ impl Active {
             Mode::Frozen | Mode::Delay(_) => debug_assert!(false, "{mode:?} has a memory"),
         }
         true
-    }
-
-    /// Whether the fault is there, after it came and went as often as the time tells.
-    fn is_there(&mut self, now: Millis) -> bool {
-        if !self.fault.is_due(now) {
-            return false;
-        }
-        let Some(Intermittent { there, away }) = self.fault.pattern() else { return true };
-        // Who asks once in a long time gets no more changes than this, and goes on from there.
-        for _ in 0..MAX_CHANGES {
-            if now < self.phase.until {
-                break;
-            }
-            let is_there = !self.phase.is_there;
-            let mean = if is_there { there } else { away };
-            // Rounded up to 1 ms, so that time goes on.
-            let drawn = -libm::log(1.0 - self.chance.part()) * mean.0 as f64;
-            let until = Millis(self.phase.until.0.saturating_add(drawn as u64 + 1));
-            self.phase = Phase { is_there, until };
-        }
-        self.phase.until = self.phase.until.max(now);
-        self.phase.is_there
     }
 }
 

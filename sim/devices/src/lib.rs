@@ -84,7 +84,7 @@ mod wrong_map;
 
 pub use camera::{Camera, CameraSettings, MAX_MARKS, QrMark, Sighting};
 pub use cotama_streams::{Stream, Streams};
-pub use fault::{Fault, Intermittent, Mode};
+pub use fault::{Effect, Fault, Intermittent, Mode, Phase};
 pub use faults::{Faults, MAX_FAULTS};
 pub use laser::{Laser, LaserSettings, MAX_RAYS};
 pub use link::{Link, LinkSettings, MAX_ACCESS_POINTS};
@@ -93,5 +93,5 @@ pub use ring::{MAX_CONE_RAYS, MAX_SONARS, Ring, RingSettings};
 pub use routes::{MAX_PLACES, Routes};
 pub use scene::{Disc, Scene};
 pub use sensed::{MAX_TIME, MAX_VALUES, Rate, Sensed};
-pub use settings::SettingsError;
+pub use settings::{SettingsError, within};
 pub use wrong_map::WrongMap;

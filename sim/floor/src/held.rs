@@ -9,9 +9,9 @@ use cotama_models::missions::Way;
 /// A surface that is drawn, or made of cells.
 #[derive(Clone, Debug)]
 pub enum Held {
-    /// Of a drawing.
+    /// Surface of a drawing.
     Drawing(Box<Segments>),
-    /// Of a map.
+    /// Surface of a map.
     Map(Box<Grid>),
 }
 

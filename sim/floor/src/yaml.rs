@@ -11,7 +11,8 @@
 //! assert_eq!((yaml::number(power), entries[0].1.span.clone()), (Some(60.0), 7..9));
 //! ```
 
-use cotama_models::reading::{Diagnostic, Sink};
+use cotama_models::missions::MissionErrors;
+use cotama_models::reading::{Diagnostic, Sink, errors};
 use saphyr_parser::{Event, Parser, ScalarStyle, Span};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -31,7 +32,7 @@ pub struct Expected {
 /// A value; those inside it stand in front of it.
 #[derive(Debug)]
 pub struct Node {
-    /// Its bytes in the text.
+    /// Bytes of the value in the text.
     pub span: Range<usize>,
     /// The value itself.
     pub value: Value,
@@ -90,6 +91,28 @@ impl Tree {
         sink.report(it.help(expected.example));
         None
     }
+}
+
+/// Reads a text of at most so many bytes; `read` makes of its tree, and of the place of the whole
+/// in it, what is wanted, and reports what is wrong.
+///
+/// # Errors
+/// All that was reported, with places. `source_name` is the name of the text in messages.
+pub fn parse<T>(
+    (source_name, text): (&str, &str),
+    most: usize,
+    expected: Expected,
+    read: impl FnOnce(&Tree, usize, &Sink) -> Option<T>,
+) -> Result<T, MissionErrors> {
+    let sink = Sink::default();
+    let found = if text.len() > most {
+        let it = Diagnostic::new(0..0, format!("the text has more than {most} bytes"), "");
+        sink.report(it.help(format!("is it {}?", expected.text)));
+        None
+    } else {
+        self::read(text, expected, &sink).and_then(|(tree, whole)| read(&tree, whole, &sink))
+    };
+    found.filter(|_| sink.is_empty()).ok_or_else(|| errors(source_name, text, sink))
 }
 
 /// Reads the first document of a text; returns the place of the whole in the tree.

@@ -97,8 +97,7 @@ enum Table {
 /// A floor prepared for a sensor and its model: the likelihood of each cell, or the range of each
 /// cell and way, and where robots may be. Robots of the same sensor and parameters share it.
 ///
-/// It takes 4 bytes a cell for a likelihood field, 256 for the beam model, and 4 for each free
-/// cell.
+/// A likelihood field takes 4 bytes a cell, the beam model 256; each free cell takes 4 more.
 #[derive(Clone, Debug)]
 pub struct Chart {
     parameters: Parameters,

@@ -1,4 +1,4 @@
-//! Where the robot is, as the particles say.
+//! The pose of the robot, as the particles say.
 
 use crate::angle::wrap;
 use crate::histogram::Histogram;

@@ -24,7 +24,7 @@ pub(crate) struct Histogram {
     weights: Vec<f64>,
     /// Another bin of the same cluster, or itself: a forest.
     parents: Vec<u32>,
-    /// Which bin each particle is in.
+    /// The bin of each particle.
     places: Vec<u32>,
     is_drawn: Vec<bool>,
     /// Bins by their keys.
@@ -33,7 +33,7 @@ pub(crate) struct Histogram {
 
 /// Bits of a column and of a row.
 const BITS: u32 = 13;
-/// What is added to the key of a bin for the next row, and for the next heading.
+/// Steps of the key of a bin for the next row, and for the next heading.
 const ROW: i64 = 1 << BITS;
 const TURN: i64 = 1 << (2 * BITS);
 /// The column of the left border of the map, as particles may be left of it, and the last one.

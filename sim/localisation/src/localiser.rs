@@ -52,7 +52,7 @@ impl core::error::Error for StartError {}
 pub struct Localiser<'c> {
     chart: &'c Chart,
     now: Particles,
-    /// Those that are drawn, before they take the place of the others.
+    /// Particles that are drawn, before they take the place of the others.
     next: Particles,
     histogram: Histogram,
     sums: Sums,

@@ -33,7 +33,7 @@ impl Model {
 /// Parameters of the filter: names, meaning and defaults are those of Nav2's AMCL
 /// (`nav2_amcl/src/amcl_node.cpp`, branch main of 2025).
 ///
-/// Where this filter differs is said at the field.
+/// Fields say where this filter differs.
 ///
 /// ```
 /// use cotama_localisation::{Model, Parameters};

@@ -33,7 +33,7 @@ impl Particles {
         self.weight.len()
     }
 
-    /// How many poses were added.
+    /// Number of poses that were added.
     pub(crate) fn added(&self) -> usize {
         self.x.len()
     }

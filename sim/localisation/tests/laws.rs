@@ -1,4 +1,4 @@
-//! What holds for all readings.
+//! Laws that hold for all readings.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss)]
 
 use core::f64::consts::PI;

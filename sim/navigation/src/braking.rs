@@ -2,7 +2,7 @@
 
 use crate::local_map::LocalMap;
 use crate::work::Work;
-use cotama_floor::{Point, Pose, Vector};
+use cotama_floor::{Point, Pose};
 use cotama_plane::{Command, Drivetrain};
 
 /// Limits of the wheels, in m/s, m/s², rad/s and rad/s².
@@ -10,11 +10,11 @@ use cotama_plane::{Command, Drivetrain};
 pub struct Limits {
     /// The highest speed.
     pub speed: f64,
-    /// How fast it speeds up and slows down.
+    /// Acceleration, also of slowing down.
     pub acceleration: f64,
-    /// How fast it turns.
+    /// Highest speed of turning.
     pub turn: f64,
-    /// How fast it begins and ends to turn.
+    /// Acceleration of turning.
     pub turn_acceleration: f64,
 }
 
@@ -95,7 +95,7 @@ impl Braking {
         work.nodes += 1;
         for _ in 0..MAX_PERIODS {
             let next = self.reached(speeds, told);
-            at *= arc(speeds, next, self.period_s);
+            at *= moved(speeds, next, self.period_s);
             (speeds, told) = (next, Command::default());
             let to = at.translation.vector;
             let square = to.norm_squared();
@@ -121,7 +121,7 @@ impl Braking {
         let (mut at, mut speeds, mut told) = (Pose::identity(), now, told);
         for _ in 0..MAX_PERIODS {
             let next = self.reached(speeds, told);
-            at *= arc(speeds, next, self.period_s);
+            at *= moved(speeds, next, self.period_s);
             (speeds, told) = (next, Command::default());
             if speeds == Command::default() {
                 break;
@@ -133,14 +133,8 @@ impl Braking {
 
 /// Returns the change of pose in a time in which speeds change evenly, at their mean as
 /// `cotama_plane::Vehicle` goes.
-fn arc(from: Command, to: Command, time: f64) -> Pose {
+fn moved(from: Command, to: Command, time: f64) -> Pose {
     let way = f64::midpoint(from.speed, to.speed) * time;
     let turn = f64::midpoint(from.turn, to.turn) * time;
-    let ahead = if turn.abs() < 1e-9 {
-        Vector::new(way, way * turn / 2.0)
-    } else {
-        let (sin, cos) = libm::sincos(turn);
-        Vector::new(sin, 1.0 - cos) * (way / turn)
-    };
-    Pose::new(ahead, turn)
+    cotama_plane::arc(way, turn)
 }

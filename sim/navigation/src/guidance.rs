@@ -8,9 +8,9 @@ use cotama_plane::Command;
 /// Place of a robot as its target on the path sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// How far it is ahead of the target along the path's tangent, in metres.
+    /// Way by which it is ahead of the target along the path's tangent, in metres.
     pub ahead: f64,
-    /// How far it is to the left, in metres.
+    /// Way by which it is to the left, in metres.
     pub aside: f64,
     /// By how much its heading is turned from the tangent, from -π to π.
     pub heading: f64,
@@ -19,15 +19,15 @@ pub struct Errors {
 /// Gains of the law. All are per metre of way, so that they shape a path in the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gains {
-    /// Of the target, which runs after the robot: `k1`, in 1/m.
+    /// Gain of the target, which runs after the robot: `k1`, in 1/m.
     pub target: f64,
-    /// Of the heading, `k2`, in 1/m.
+    /// Gain of the heading, `k2`, in 1/m.
     pub heading: f64,
-    /// Of the lateral error in the turn, `γ`, in 1/m².
+    /// Gain of the lateral error in the turn, `γ`, in 1/m².
     pub aside: f64,
     /// The steepest approach, `θa`, in radians.
     pub approach: f64,
-    /// How soon it is taken, `kδ`, in 1/m.
+    /// Steepness with which that approach is taken, `kδ`, in 1/m.
     pub steepness: f64,
 }
 

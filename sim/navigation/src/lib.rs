@@ -1,9 +1,9 @@
 //! Algorithms of a robot that finds its way, on what it knows.
 //!
-//! They are in the roles of COTAMA's modules (Durand et al., TAROS 2010, Table I): each a small
-//! deterministic type. They are told believed poses and readings, never the truth, and count their
-//! [`Work`], which an executive turns into execution time. Equations of SMZ and of DVZ could not be
-//! read; published methods stand in their roles, under their own names.
+//! Types here are in the roles of COTAMA's modules (Durand et al., TAROS 2010, Table I): each a
+//! small deterministic type. They are told believed poses and readings, never the truth, and count
+//! their [`Work`], which an executive turns into execution time. Equations of SMZ and of DVZ could
+//! not be read; published methods stand in their roles, under their own names.
 //!
 //! | role | algorithm | source | inputs | output | work |
 //! | --- | --- | --- | --- | --- | --- |

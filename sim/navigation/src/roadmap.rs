@@ -137,7 +137,7 @@ impl<'s> Roadmap<'s> {
     /// Finds a way, and shortens it.
     ///
     /// # Errors
-    /// When the robot finds no room at an end, or there is no way in the roadmap.
+    /// An end without room for the robot at an end, or there is no way in the roadmap.
     pub fn route(&mut self, from: Point, to: Point) -> Result<Path, NoWay> {
         if !self.has_room(from) {
             return Err(NoWay::Start);

@@ -29,11 +29,11 @@ pub const CLEAR_M: f64 = 2.0;
 /// Weights of the objective; the sum is what a motion is worth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weights {
-    /// Of the heading towards the target, where the robot would stand.
+    /// Weight of the heading towards the target, where the robot would stand.
     pub heading: f64,
-    /// Of the way that is clear on the arc of the motion, up to [`CLEAR_M`].
+    /// Weight of the way that is clear on the arc of the motion, up to [`CLEAR_M`].
     pub clear: f64,
-    /// Of the speed ahead.
+    /// Weight of the speed ahead.
     pub speed: f64,
 }
 

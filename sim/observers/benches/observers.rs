@@ -1,4 +1,4 @@
-//! How long the observers of a robot take for one period, in nanoseconds.
+//! Time of the observers of a robot for one period, in nanoseconds.
 //!
 //! `cargo bench -p cotama-observers`; with `--test` it runs briefly. Each is the median of 11
 //! rounds, by the time on the processor where Linux tells it, else by the clock.

@@ -2,11 +2,11 @@
 
 use crate::flag::Flag;
 use crate::newest::Newest;
-use crate::promise::{FalseAlarms, Run, within};
+use crate::promise::{FalseAlarms, Run};
 use crate::quantile::normal_quantile;
 use crate::spell::{Spell, Tail};
 use cotama_core::units::Millis;
-use cotama_devices::{Sensed, SettingsError};
+use cotama_devices::{Sensed, SettingsError, within};
 
 /// The bumpers, and what speaks for or against a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]

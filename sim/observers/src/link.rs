@@ -1,10 +1,10 @@
 //! The level of a radio link: its mean, its trend, and the time until it is lost.
 
 use crate::flag::Flag;
-use crate::promise::{FalseAlarms, within};
+use crate::promise::FalseAlarms;
 use crate::quantile::normal_quantile;
 use cotama_core::units::Millis;
-use cotama_devices::{Sensed, SettingsError};
+use cotama_devices::{Sensed, SettingsError, within};
 
 /// The most levels of a window.
 pub const MAX_LEVELS: usize = 32;

@@ -1,11 +1,11 @@
 //! Following a path: behind for too long, no progress, no convergence, motion that was not told.
 
 use crate::flag::Flag;
-use crate::promise::{FalseAlarms, within};
+use crate::promise::FalseAlarms;
 use crate::quantile::{chi_square_quantile, normal_quantile};
 use crate::spell::{Spell, Tail};
 use cotama_core::units::Millis;
-use cotama_devices::{Sensed, SettingsError};
+use cotama_devices::{Sensed, SettingsError, within};
 
 /// A place beside a path.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,10 @@
 //! Odometry against localisation: growth and jumps of their distance, and the spread.
 
 use crate::flag::Flag;
-use crate::promise::{FalseAlarms, within};
+use crate::promise::FalseAlarms;
 use crate::quantile::chi_square_quantile;
 use cotama_core::units::Millis;
-use cotama_devices::{Sensed, SettingsError};
+use cotama_devices::{Sensed, SettingsError, within};
 use nalgebra::{Isometry2, Matrix3, Vector3};
 
 /// Two estimates of the pose of one time.
@@ -31,11 +31,11 @@ impl Poses {
 /// Errors of odometry: deviations that grow with the square root of what was driven.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OdometryErrors {
-    /// Of the way, in m per √m.
+    /// Deviation of the way, in m per √m.
     pub way: f64,
-    /// Of the heading, in rad per √m.
+    /// Deviation of the heading by the way, in rad per √m.
     pub drift: f64,
-    /// Of the heading, in rad per √rad.
+    /// Deviation of the heading by turning, in rad per √rad.
     pub turn: f64,
 }
 
@@ -57,7 +57,7 @@ impl OdometryErrors {
 struct Stretch {
     began: Sensed<Poses>,
     last: Sensed<Poses>,
-    /// Of x, y and heading in the frame of the pose at the begin.
+    /// Covariance of x, y and heading in the frame of the pose at the begin.
     covariance: Matrix3<f64>,
 }
 

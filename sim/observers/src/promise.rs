@@ -1,9 +1,9 @@
 //! Promised rates of false alarms, and what they leave to one decision.
 
 use cotama_core::units::Millis;
-use cotama_devices::SettingsError;
+use cotama_devices::{SettingsError, within};
 
-/// How often an observer may raise its flag though all is sound.
+/// Rate at which an observer may raise its flag though all is sound.
 ///
 /// ```
 /// use cotama_core::units::Millis;
@@ -95,17 +95,6 @@ impl Run {
     pub(crate) const fn is_long(&self) -> bool {
         self.length >= self.most
     }
-}
-
-/// Says whether a number is in its range; what is no number never is.
-pub(crate) fn within(
-    name: &'static str,
-    given: f64,
-    least: f64,
-    most: f64,
-) -> Result<(), SettingsError> {
-    let is_good = (least..=most).contains(&given);
-    if is_good { Ok(()) } else { Err(SettingsError { name, given, least, most }) }
 }
 
 #[cfg(test)]

@@ -33,7 +33,7 @@ impl Blame {
 pub struct Watch<'w> {
     /// The observer.
     pub observer: &'w mut dyn Observer,
-    /// What its flags say.
+    /// The statements of its flags.
     pub blames: &'w [Blame],
 }
 

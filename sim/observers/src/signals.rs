@@ -30,7 +30,7 @@ use cotama_devices::Sensed;
 pub struct Signals<'s> {
     /// The jobs of this period, by module.
     pub jobs: &'s [Option<Job>],
-    /// When the newest datum was taken, by port.
+    /// Times at which the newest datum was taken, by port.
     pub taken: &'s [Option<Millis>],
     /// Values that have an interval.
     pub values: &'s [Option<f64>],

@@ -1,10 +1,10 @@
 //! Sonars that read their largest range for too long a way.
 
 use crate::flag::Flag;
-use crate::promise::{FalseAlarms, within};
+use crate::promise::FalseAlarms;
 use crate::spell::{Spell, Survey};
 use cotama_core::units::Millis;
-use cotama_devices::{MAX_SONARS, Sensed, SettingsError};
+use cotama_devices::{MAX_SONARS, Sensed, SettingsError, within};
 
 /// The way and the readings of one sonar.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! Spells in which a sound signal looks as a broken one does, and how long they last.
 
-use crate::promise::{FalseAlarms, within};
+use crate::promise::FalseAlarms;
 use cotama_core::units::Millis;
-use cotama_devices::SettingsError;
+use cotama_devices::{SettingsError, within};
 
 /// The tail of the lengths of such spells: how often they are long, and by how much.
 ///

@@ -72,9 +72,9 @@ pub enum Status {
     /// Nothing speaks against it.
     #[default]
     Sound,
-    /// It works perhaps, or its data may be wrong.
+    /// Perhaps broken, or its data may be wrong.
     Suspect,
-    /// It does not work, or its data are corrupt.
+    /// Broken, or its data are corrupt.
     Lost,
 }
 

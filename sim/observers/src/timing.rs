@@ -1,10 +1,10 @@
 //! Data that are late, jobs that miss their deadlines, values outside of their interval.
 
 use crate::flag::Flag;
-use crate::promise::{FalseAlarms, Run, in_a_row, within};
+use crate::promise::{FalseAlarms, Run, in_a_row};
 use crate::quantile::normal_quantile;
 use cotama_core::units::Millis;
-use cotama_devices::{Rate, SettingsError};
+use cotama_devices::{Rate, SettingsError, within};
 
 /// The most jitter, in ms.
 const JITTER: f64 = 600_000.0;
@@ -73,9 +73,9 @@ impl Age {
 /// The end of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Job {
-    /// It ended before its deadline.
+    /// Ended before its deadline.
     Kept,
-    /// It ended later, or not at all.
+    /// Ended later, or not at all.
     Missed,
 }
 

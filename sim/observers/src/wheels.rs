@@ -8,8 +8,7 @@ mod observer;
 #[cfg(test)]
 mod simulated;
 
-use crate::promise::within;
-use cotama_devices::SettingsError;
+use cotama_devices::{SettingsError, within};
 
 pub use bank::Bank;
 pub use model::{MODES, Mode, Side};
@@ -64,7 +63,7 @@ pub struct WheelSettings {
     pub load: f64,
     /// Deviations of encoder (rad/s), current (A) and gyro (rad/s).
     pub noise: [f64; 3],
-    /// How likely a reading is an outlier, which may be anything over a spread in its unit.
+    /// Chance that a reading is an outlier, which may be anything over a spread in its unit.
     pub outliers: f64,
     /// The spread of outliers.
     pub spread: f64,

@@ -45,4 +45,4 @@ pub use motors::Motors;
 pub use odometry::Odometry;
 pub use rover::Rover;
 pub use track::{Corner, Near, Track};
-pub use vehicle::{Command, Effect, Step, Vehicle};
+pub use vehicle::{Command, Effect, Step, Vehicle, arc};

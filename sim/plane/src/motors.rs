@@ -22,7 +22,7 @@ pub struct Motors {
     pub rolling: f64,
     /// The mass of the robot, in kg.
     pub mass: f64,
-    /// How long a wheel is held before its motor counts as stalled.
+    /// Time for which a wheel is held before its motor counts as stalled.
     pub stall: Millis,
 }
 

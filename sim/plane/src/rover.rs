@@ -180,7 +180,7 @@ impl<'c> Rover<'c> {
         &self.things
     }
 
-    /// Its odometry begins anew: at the origin.
+    /// Lets its odometry begin anew, at the origin.
     pub fn forget(&mut self) {
         self.odometry.begin(Pose::identity());
     }

@@ -12,7 +12,7 @@ pub struct Command {
     pub turn: f64,
 }
 
-/// What faults and the supply make of the speeds of the wheels, left and right, in a step.
+/// Effect of faults and of the supply on the speeds of the wheels, left and right, in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effect {
     /// The part of the speed told with which a wheel turns.
@@ -37,9 +37,9 @@ impl Default for Effect {
 pub struct Step {
     /// The mean speeds that they were told, in rad/s.
     pub told: [f64; 2],
-    /// Those that they had.
+    /// Mean speeds that they had, in rad/s.
     pub turned: [f64; 2],
-    /// How fast the speeds of the robot were to change, in m/s² and rad/s².
+    /// Accelerations that the robot was told, in m/s² and rad/s².
     pub gained: Command,
 }
 
@@ -222,8 +222,8 @@ fn towards(from: f64, to: f64, most: f64) -> f64 {
     from + (to - from).clamp(-most, most)
 }
 
-/// Returns the change of pose on an arc.
-pub(crate) fn arc(way: f64, turn: f64) -> Pose {
+/// Returns the change of pose on an arc: its way in metres, its turn to the left in radians.
+pub fn arc(way: f64, turn: f64) -> Pose {
     let ahead = if turn.abs() < 1e-9 {
         Vector::new(way, way * turn / 2.0)
     } else {

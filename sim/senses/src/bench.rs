@@ -1,4 +1,4 @@
-//! What the robots of a mission share: the map, and what a sound robot shows on its course.
+//! The common part of the robots of a mission: the map, and what a sound robot shows on its course.
 
 use crate::sonars::{RANGE_M, ring, short};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};

@@ -17,7 +17,7 @@ const PER_HOUR: f64 = 0.01;
 /// The room ahead in which bumpers are not to be pressed, in metres.
 const ROOM_M: f64 = 0.5;
 
-/// What all flags of a period are made of.
+/// Signals of a period, of which all flags are made.
 pub(crate) struct Period<'s> {
     pub(crate) now: Millis,
     pub(crate) ranges: Option<&'s [Option<Sensed<f64>>]>,
@@ -26,8 +26,8 @@ pub(crate) struct Period<'s> {
     pub(crate) place: OnPath,
     pub(crate) is_told_to_move: bool,
     pub(crate) level_dbm: Option<Sensed<f64>>,
-    /// When the newest sign of the operator's station, and the newest image, came; and when that
-    /// image was taken.
+    /// Times at which the newest sign of the operator's station came, and the newest image; and at
+    /// which that image was taken.
     pub(crate) heard: Option<Millis>,
     pub(crate) image: Option<(Millis, Millis)>,
     pub(crate) free_m: f64,

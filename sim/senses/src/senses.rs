@@ -52,7 +52,7 @@ struct Around {
     is_avoiding: bool,
 }
 
-/// What a configuration lets the robot do in a period.
+/// Modules and motion of the robot in a period, as its configuration allows.
 #[derive(Clone, Copy, Debug)]
 pub struct Uses {
     /// The modules that run, a bit each.
@@ -79,11 +79,11 @@ const MARGIN_M: f64 = 0.05;
 const ASIDE_M: f64 = 0.07;
 /// A speed that no robot has, in mm/s.
 const MOST_MM_S: f64 = 1e6;
-/// How far localisation is led astray when it is lost, in metres.
+/// Way by which localisation is led astray when it is lost, in metres.
 const ASTRAY_M: f64 = 1.5;
-/// Where something that is on no map stands: so far ahead along the path, with this radius.
+/// Place of a thing that is on no map: so far ahead along the path; and its radius, in metres.
 const THING: [f64; 2] = [1.5, 0.25];
-/// How much weaker a weak link is, in dB.
+/// Loss of level of a weak link, in dB.
 const WEAKER_DB: f64 = 30.0;
 /// The deviations of the pose at which a robot is put down or led to: 5 cm and 3°.
 const PUT: [f64; 3] = [0.05, 0.05, 0.05];

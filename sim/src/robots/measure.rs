@@ -6,7 +6,7 @@ use cotama_core::units::Millis;
 use cotama_models::robots::Moment;
 use std::collections::BTreeMap;
 
-/// How long a detection may take.
+/// The longest time of a detection.
 pub const WINDOW: Millis = Millis(120_000);
 
 /// The detection of one failure in several runs.
@@ -16,7 +16,7 @@ pub struct Measured {
     pub runs: u64,
     /// The runs in which something was diagnosed before.
     pub false_alarms: u64,
-    /// How long after the failure something was diagnosed, in the runs in which it was, the
+    /// Times from the failure to a diagnosis, in the runs in which it was, the
     /// shortest time first.
     pub delays: Vec<Millis>,
     /// The rows that it was taken for, and in how many runs.
@@ -46,7 +46,7 @@ impl Driven<'_> {
     /// first diagnosis after it, within [`WINDOW`], right or wrong.
     ///
     /// # Errors
-    /// When there is no plan at the start.
+    /// A [`NoPlan`] where there is no plan at the start.
     pub fn measure(
         &self,
         failure: usize,

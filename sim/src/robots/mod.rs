@@ -249,7 +249,7 @@ pub struct Driven<'m> {
     monitors: Vec<Monitor>,
     /// For how long the robot is watched when it is safe.
     after: Millis,
-    /// Where only the detection of the first failure is of interest: how long it may take.
+    /// The longest time of a detection, of runs that are only about that of their first failure.
     window: Option<Millis>,
 }
 
@@ -277,7 +277,7 @@ pub enum Undriven {
     Unwatchable(MonitorError),
     /// The robot cannot drive over the floor.
     NoCourse(NoCourse),
-    /// Its devices cannot be made.
+    /// The devices of the robot cannot be made.
     NoSenses(String),
 }
 

@@ -47,7 +47,7 @@ pub struct PlannedBy {
     pub steps: Option<u64>,
     /// How plans are adapted.
     pub policy: Adapts,
-    /// How closely the robot was modelled, as a position in [`FIDELITIES`].
+    /// Fidelity of the robot's model, as a position in [`FIDELITIES`].
     pub fidelity: usize,
 }
 

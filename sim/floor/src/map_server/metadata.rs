@@ -2,7 +2,7 @@
 
 use crate::yaml::{self, Expected, Node, Tree, Value, number, truth};
 use cotama_models::missions::MissionErrors;
-use cotama_models::reading::{Diagnostic, Position, Sink, errors, quoted, unknown};
+use cotama_models::reading::{Diagnostic, Position, Sink, quoted, unknown};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -73,11 +73,8 @@ impl Metadata {
     /// # Errors
     /// All errors of the text, with their places.
     pub fn parse(source_name: &str, text: &str) -> Result<(Self, Vec<Warning>), MissionErrors> {
-        let sink = Sink::default();
-        match read(source_name, text, &sink).filter(|_| sink.is_empty()) {
-            Some(it) => Ok(it),
-            None => Err(errors(source_name, text, sink)),
-        }
+        let read = |tree: &Tree, whole, sink: &Sink| read((source_name, text), tree, whole, sink);
+        yaml::parse((source_name, text), MAX_TEXT, EXPECTED, read)
     }
 
     /// Returns the path of the image, given that of the text.
@@ -94,15 +91,14 @@ impl Metadata {
     }
 }
 
-fn read(source_name: &str, text: &str, sink: &Sink) -> Option<(Metadata, Vec<Warning>)> {
-    if text.len() > MAX_TEXT {
-        let it = Diagnostic::new(0..0, format!("the text has more than {MAX_TEXT} bytes"), "");
-        sink.report(it.help("is it the text of a map?"));
-        return None;
-    }
-    let (tree, whole) = yaml::read(text, EXPECTED, sink)?;
+fn read(
+    (source_name, text): (&str, &str),
+    tree: &Tree,
+    whole: usize,
+    sink: &Sink,
+) -> Option<(Metadata, Vec<Warning>)> {
     let entries = tree.entries(whole, EXPECTED, sink)?;
-    let mut keys = Keys { tree: &tree, entries, sink, missing: Vec::new() };
+    let mut keys = Keys { tree, entries, sink, missing: Vec::new() };
     let image = keys.text("image");
     let resolution = keys.resolution();
     let origin = keys.origin();

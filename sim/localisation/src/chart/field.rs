@@ -11,7 +11,7 @@ use cotama_floor::Surface;
 const TOGETHER: usize = 64;
 /// With so much added, a number below it is rounded to a whole one, which its lowest bits hold.
 const ROUNDS: f32 = 8_388_608.0; // 2²³
-/// Those bits.
+/// The lowest bits, with the whole number.
 const WHOLE: u32 = (1 << 23) - 1;
 /// The least likelihood whose logarithm is taken.
 const LEAST: f64 = 1e-30;

@@ -5,7 +5,7 @@ use crate::parameters::Parameters;
 /// From so many deviations on a hit has no likelihood.
 const NEVER: f64 = 6.0;
 
-/// How likely it is that a beam of a range hits, ends early, sees nothing or is there by chance.
+/// Likelihood that a beam of a range hits, ends early, sees nothing or is there by chance.
 #[derive(Clone, Debug)]
 pub(super) struct Mixture {
     /// Likelihood of a hit by the difference in mm.

@@ -30,8 +30,8 @@ impl OnRobot {
 #[derive(Clone, Debug)]
 pub(crate) struct Reading {
     rays: usize,
-    /// Where rays begin in the beam model, and where they end in the likelihood field, in metres on
-    /// the robot.
+    /// Begins of rays in the beam model, and their ends in the likelihood field, in metres on the
+    /// robot.
     pub(super) x: Vec<f32>,
     pub(super) y: Vec<f32>,
     /// The ways of the rays on the robot.

@@ -5,7 +5,7 @@ use cotama_floor::map_server::Warning;
 use cotama_floor::yaml::{self, Expected, Node, Tree, Value, number, truth};
 use cotama_floor::{Pose, Vector};
 use cotama_models::missions::MissionErrors;
-use cotama_models::reading::{Diagnostic, Position, Sink, errors, quoted, unknown};
+use cotama_models::reading::{Diagnostic, Position, Sink, quoted, unknown};
 
 /// The longest text, in bytes.
 pub const MAX_TEXT: usize = 256 << 10;
@@ -52,11 +52,8 @@ impl Parameters {
     /// # Errors
     /// All errors of the text, with their places.
     pub fn parse(source_name: &str, text: &str) -> Result<(Self, Vec<Warning>), MissionErrors> {
-        let sink = Sink::default();
-        match read(source_name, text, &sink).filter(|_| sink.is_empty()) {
-            Some(it) => Ok(it),
-            None => Err(errors(source_name, text, sink)),
-        }
+        let read = |tree: &Tree, whole, sink: &Sink| read((source_name, text), tree, whole, sink);
+        yaml::parse((source_name, text), MAX_TEXT, EXPECTED, read)
     }
 }
 
@@ -95,16 +92,15 @@ fn section<'t>(all: &Entries<'t>, key: &str, sink: &Sink) -> Option<&'t Node> {
     found
 }
 
-fn read(source_name: &str, text: &str, sink: &Sink) -> Option<(Parameters, Vec<Warning>)> {
-    if text.len() > MAX_TEXT {
-        let it = Diagnostic::new(0..0, format!("the text has more than {MAX_TEXT} bytes"), "");
-        sink.report(it.help(format!("is it {}?", EXPECTED.text)));
-        return None;
-    }
-    let (tree, whole) = yaml::read(text, EXPECTED, sink)?;
-    let amcl = section(&entries(&tree, tree.get(whole)?, sink)?, "amcl", sink)?;
-    let all = section(&entries(&tree, amcl, sink)?, "ros__parameters", sink)?;
-    let all = entries(&tree, all, sink)?;
+fn read(
+    (source_name, text): (&str, &str),
+    tree: &Tree,
+    whole: usize,
+    sink: &Sink,
+) -> Option<(Parameters, Vec<Warning>)> {
+    let amcl = section(&entries(tree, tree.get(whole)?, sink)?, "amcl", sink)?;
+    let all = section(&entries(tree, amcl, sink)?, "ros__parameters", sink)?;
+    let all = entries(tree, all, sink)?;
     let mut parameters = Parameters::default();
     let mut warnings = Vec::new();
     let (mut is_set, mut pose) = (false, Pose::identity());
@@ -131,7 +127,7 @@ fn read(source_name: &str, text: &str, sink: &Sink) -> Option<(Parameters, Vec<W
                 }
                 "do_beamskip" => {}
                 "set_initial_pose" => is_set = truth_of(name, value, sink).unwrap_or(false),
-                "initial_pose" => pose = initial_pose(&tree, value, sink).unwrap_or(pose),
+                "initial_pose" => pose = initial_pose(tree, value, sink).unwrap_or(pose),
                 _ => stray(name, key, sink),
             }
         }

@@ -72,7 +72,7 @@ fn along(path: &Path, poses: &mut Vec<Pose>) {
     }
 }
 
-/// What encoders say: 2 % too far and 3 % too much turn, a drift of 0.01 rad/m, and noise.
+/// Errors of the encoders: 2 % too far and 3 % too much turn, a drift of 0.01 rad/m, and noise.
 pub(crate) fn odometry(truth: &[Pose], streams: Streams) -> Vec<Pose> {
     let mut noise: Stream = streams.stream("odometry");
     let mut at = Pose::identity();

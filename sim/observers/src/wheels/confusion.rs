@@ -166,12 +166,12 @@ fn false_alarms_are_printed() {
 /// Outcomes of a fault over runs.
 #[derive(Default)]
 struct Row {
-    /// How often each mode was told; the last is none.
+    /// Counts of the modes that were told; the last is none.
     told: [u32; MODES.len() + 1],
     delays: Vec<u32>,
     sums: Vec<u32>,
     separate: Vec<u32>,
-    /// How often filters that do not exchange told the right fault.
+    /// Count of right faults of filters that do not exchange.
     separate_right: u32,
     /// Periods before the fault in which models, sums, and filters apart raised their flags.
     early: [u32; 3],

@@ -75,7 +75,7 @@ impl Period {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expected {
     pub(crate) value: f64,
-    /// How the reading changes with the speeds of the wheels.
+    /// Slope of the reading over the speeds of the wheels.
     pub(crate) slope: RowVector2<f64>,
     pub(crate) variance: f64,
 }

@@ -5,9 +5,9 @@ use super::model::{MODES, Mode};
 use super::{WheelSettings, Wheels};
 use crate::flag::Flag;
 use crate::newest::Newest;
-use crate::promise::{FalseAlarms, Run, within};
+use crate::promise::{FalseAlarms, Run};
 use cotama_core::units::Millis;
-use cotama_devices::{Sensed, SettingsError};
+use cotama_devices::{Sensed, SettingsError, within};
 
 /// Chances of which the threshold of a [`WheelObserver`] is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,7 +18,7 @@ pub struct WheelRates {
     pub period: Millis,
     /// Faults of wheels and motors per hour, as the analysis of failures has them.
     pub faults_per_hour: f64,
-    /// How likely the fault that is told may be another one.
+    /// Chance that the fault that is told is another one.
     pub wrong: f64,
 }
 
@@ -43,11 +43,11 @@ impl WheelRates {
 pub struct Diagnosis {
     /// The most likely fault.
     pub mode: Mode,
-    /// How likely it is, if any fault is there.
+    /// Probability of it, if any fault is there.
     pub share: f64,
 }
 
-/// How likely a broken robot is sound again after a period: a slip ends after 5 s on average.
+/// Chance that a broken robot is sound again after a period: a slip ends after 5 s on average.
 const HEALS: f64 = 0.02;
 
 /// An observer of wheels and motors by a bank of Kalman filters ([`Bank`]).
@@ -80,7 +80,7 @@ const HEALS: f64 = 0.02;
 /// | wheel blocked | 200, 0.2 s | 200, 0.2 s | 200, 0.2 s | 200, 0.2 s | 0.1 s |
 /// | slip (100 runs) | 100, 0.3 s | 100, 0.3 s | 100, 0.3 s | 100, 0.3 s | 0.1 to 0.2 s |
 ///
-/// Of 400 runs of each mode, 26 of 800 lossy encoders were told by no name, and one weak motor by
+/// In 400 runs of each mode, 26 of 800 lossy encoders were told by no name, and one weak motor by
 /// that of a lossy encoder; all others by their own. Those that were missed lose 5 to 7 % at wheel
 /// speeds near 1 rad/s. Sums find nearly all of these too, within 0.6 s.
 ///

@@ -17,9 +17,9 @@ pub(crate) struct Plant {
     blocked_for: f64,
     noise: Stream,
     pub(crate) fault: Mode,
-    /// How large the fault is: the share that is lost.
+    /// Size of the fault: the share that is lost.
     pub(crate) size: f64,
-    /// How likely a period has an encoder reading that is anything.
+    /// Chance of a period with an encoder reading that is anything.
     pub(crate) outliers: f64,
 }
 
