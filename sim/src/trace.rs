@@ -208,6 +208,8 @@ pub enum Record {
     Exposure(supervised::Exposure),
     /// Other modules run.
     Configuration(supervised::Configured),
+    /// Something else is known to be lost, or works again.
+    Status(supervised::Status),
     /// The mission is over.
     End(End),
 }
@@ -230,6 +232,7 @@ impl Record {
             Self::Decision(it) => it.t_us,
             Self::Exposure(it) => it.t_us,
             Self::Configuration(it) => it.t_us,
+            Self::Status(it) => it.t_us,
             Self::End(it) => it.t_us,
         }
     }
@@ -251,6 +254,7 @@ impl Record {
             Self::Decision(it) => it.x_mm,
             Self::Exposure(it) => it.x_mm,
             Self::Configuration(it) => it.x_mm,
+            Self::Status(it) => it.x_mm,
             Self::End(it) => it.x_mm,
         }
     }

@@ -91,50 +91,65 @@ fn measured(id: &str) -> Measured {
 
 #[test]
 fn failures_of_devices_are_found_by_their_signals() {
-    let found = ["SON2", "ODO1", "MOT2", "BAT2", "P3D1", "CAM1", "COM1"].map(|id| {
+    let ids = [
+        "SON2", "SON3", "ODO1", "ODO2", "MOT2", "BAT2", "P3D1", "EST1", "RT1", "RT2", "SW1.SMZ",
+        "LOC2", "CAM1", "COM1",
+    ];
+    let found = ids.map(|id| {
         let it = measured(id);
         let is_unique = it.taken_for.contains_key(&vec![row(id)]);
         (id, it.named(row(id)), it.median().unwrap().0, is_unique)
     });
     let expected = [
         ("SON2", 3, 700, true),
-        ("ODO1", 3, 300, false), // WHL1 shows itself by the same flag
+        ("SON3", 3, 500, true),
+        ("ODO1", 3, 300, false), // WHL1 and ODO2 show themselves by the same flag
+        ("ODO2", 3, 300, false),
         ("MOT2", 3, 400, true),
         ("BAT2", 3, 2_000, false), // below the level of BAT1 too
-        ("P3D1", 0, 200, false),   // taken for lost packets at first
+        ("P3D1", 3, 400, true),
+        ("EST1", 3, 0, true),
+        ("RT1", 3, 300, true),
+        ("RT2", 3, 100, true),
+        ("SW1.SMZ", 3, 300, false), // one flag for each module
+        ("LOC2", 3, 7_300, false),
         ("CAM1", 3, 1_500, true),
         ("COM1", 3, 1_400, true),
     ];
     assert_eq!(found, expected);
 }
 
-/// The thing in the way is taken for a lost wheel, as avoidance leads the robot off its
-/// path; a sonar that hears nothing ahead in a corridor is not noticed.
+/// Nothing but the flags of signals reaches the supervisors. The thing in the way shows itself as a
+/// lost wheel would, by a robot that stays off its path; contact may be that of drift or of a thing.
 #[test]
-fn six_of_the_seven_incidents_of_the_delivery_arise_by_signals() {
+fn the_seven_incidents_of_the_delivery_arise_by_signals_in_their_order() {
     let delivery = embedded::mission("delivery").unwrap();
     let delivery = Mission::parse(delivery.name, delivery.text).unwrap();
-    let options = Options { fidelity: Fidelity::Signal, ..Options::default() };
-    let (trace, run) = Trace::record(&delivery, &options).unwrap();
-    assert_eq!((run.outcome, run.operator_requests), (Outcome::Completed, 2));
-    let told = points(&trace.records);
-    assert_eq!(told.len(), 7);
-    let found: Vec<_> = told.iter().filter_map(Point::found).collect();
-    let expected = [
-        "after 0.2 s, MCL late: it is RT1",
-        "after 7.2 s, no convergence: taken for WHL1",
-        "nobody noticed it",
-        "after 0.0 s, bumper: one of LOC3, COL1, not unique",
-    ];
-    assert_eq!(found, expected);
+    for seed in 0..3 {
+        let options = Options { seed, fidelity: Fidelity::Signal, ..Options::default() };
+        let (trace, run) = Trace::record(&delivery, &options).unwrap();
+        assert_eq!((run.outcome, run.operator_requests), (Outcome::Completed, 2), "{seed}");
+        let told = points(&trace.records);
+        let flags = |it: String| it.split(", ").nth(1).unwrap().to_string();
+        let found: Vec<_> = told.iter().filter_map(Point::found).map(flags).collect();
+        let expected = [
+            "MCL late: it is RT1",
+            "no convergence: one of WHL1",
+            "sonar far: it is SON1",
+            "bumper: one of LOC3",
+        ];
+        assert_eq!((told.len(), found), (7, expected.map(String::from).to_vec()), "{seed}");
+    }
 }
 
-/// The file assumes 5 s: in a corridor a sound sonar hears nothing for that long, too.
+/// The file assumes 5 s; among the desks of an office it takes 4.4 s, in a wide corridor 15 s.
 #[test]
-fn a_sonar_that_hears_nothing_is_found_after_more_way_than_the_file_assumes() {
+fn a_sonar_at_its_largest_range_is_found_as_fast_as_its_way_lets_it() {
     let it = measured("SON1");
-    assert_eq!(it.delays.len(), 3);
-    assert!(it.median().unwrap() > Millis(60_000), "{:?}", it.delays);
+    assert_eq!(
+        (it.delays, it.taken_for.get(&vec![row("SON1")]).copied()),
+        (vec![Millis(4_400); 3], Some(3))
+    );
 }
 
 #[test]

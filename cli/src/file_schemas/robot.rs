@@ -4,7 +4,7 @@ use super::DRAFT;
 use super::parts::{choice, choices, flag, id, integer, named, table, tables, text, with, word};
 use cotama_models::robots::known::{
     ASKS, AXLES, BODY_SPEEDS, CELLS, CHARGES, COEFFICIENTS, COSTS, COUNTS, CURRENTS, ERRORS,
-    FORMAT, HARM_UNITS, HARMED, HOLDS, MASKS, MAX_PARAMETERS, MODES, MOTIONS, NO_LOADS, PERIODS,
+    FORMAT, HARM_UNITS, LENGTHENED, HOLDS, MASKS, MAX_PARAMETERS, MODES, MOTIONS, NO_LOADS, PERIODS,
     PERSISTENCES, POSITIVE, POWERS, RADII, RANKS, RESISTANCES, RESTARTS, ROLLINGS, SETTINGS,
     SEVERITIES, SLOWED, SPEEDS, TIMES, TRIES, TURNS, UNITS, UNWATCHED, VALUES, VOLTAGES, WHEELS,
 };
@@ -257,8 +257,9 @@ fn failure() -> Value {
     let harms = HARMS.map(|it| it.0);
     let is = [("is", choice(&harms, "what happens to the device"))];
     let harm = [
+        ("module", text("the module, where one is harmed and the failure has no `each`")),
         ("unit", integer(&HARM_UNITS, "the sonar; or the side, 0 left, 1 right; 0")),
-        ("permille", integer(&HARMED, "the part that is lost, in thousandths; 500")),
+        ("permille", integer(&LENGTHENED, "the part that is lost, or the time that comes; 500")),
     ];
     let can = [
         ("function", text("the function that is lost")),

@@ -24,7 +24,10 @@ pub(crate) fn measure(name: &str, args: &FmecaArgs, screen: &Screen) -> Result<E
     let options = Options { fidelity: Fidelity::Signal, ..Options::default() };
     let driven =
         Driven::with(&mission, &options).map_err(|it| Failure::of(name, it.to_string()))?;
-    let at = Millimetres(mission.path_length.0 / 3);
+    // In the middle of the first drive: the robot goes on for a while, and turns nowhere.
+    let drive = mission.objectives.iter().find(|it| it.travels());
+    let at = drive.map_or(0, |it| u64::midpoint(it.x_start.0, it.x_end.0));
+    let at = Millimetres(at);
     let (line, begun) = (Line::new(), Instant::now());
     let mut rows = Vec::new();
     let sensed = robot.failures.iter().enumerate().filter(|it| it.1.harm.is_some());

@@ -55,28 +55,30 @@ impl Rows {
 /// that all are taken is assumed, as it is the safe side). `up` are the flags that are raised, a
 /// bit each, and `raised` those of them that are new.
 ///
-/// A failure is a candidate when all of its flags are up and one of them is new; one whose flags
-/// another candidate shows as well, with more, is left out. Where none is a candidate, all failures
-/// are that a new flag always shows.
+/// A failure is a candidate when all flags that always show it are up and one of them is new; one
+/// whose flags another candidate shows as well, with more, is left out. Where none is a candidate,
+/// all failures are that a new flag shows, always or at times.
 ///
 /// ```
 /// use cotama_models::level::{Failure, diagnose};
 /// use cotama_models::severity::{Persistence, Severity};
-/// let row = |flags| Failure {
+/// let row = |flags, sometimes| Failure {
 ///     flags,
+///     sometimes,
 ///     report: 0,
 ///     worst: Severity::Weak,
 ///     persistence: Persistence::Permanent,
 /// };
-/// let rows = [row(0b001), row(0b011), row(0b100)];
+/// let rows = [row(0b001, 0), row(0b011, 0), row(0b100, 0b1000)];
 /// let found = |up, raised| diagnose(&rows, up, raised).worst_first(&rows).collect::<Vec<_>>();
 /// assert_eq!(found(0b001, 0b001), [0]);
 /// assert_eq!(found(0b011, 0b010), [1]); // with more than the first row shows
 /// assert_eq!(found(0b010, 0b010), [1]); // not whole, but nothing else shows it
+/// assert_eq!(found(0b1000, 0b1000), [2]); // as at times
 /// ```
 pub fn diagnose(failures: &[Failure], up: u64, raised: u64) -> Rows {
-    let is_new = |it: &Failure| it.flags & raised != 0;
-    let is_whole = |it: &Failure| is_new(it) && it.flags & !up == 0;
+    let is_new = |it: &Failure| (it.flags | it.sometimes) & raised != 0;
+    let is_whole = |it: &Failure| it.flags & raised != 0 && it.flags & !up == 0;
     let says_less =
         |one: &Failure, other: &Failure| one.flags != other.flags && one.flags & !other.flags == 0;
     let mut found = Rows::default();

@@ -45,6 +45,7 @@ impl Hidden {
     /// use cotama_models::severity::{Persistence, Severity};
     /// let row = |flags, report| Failure {
     ///     flags,
+    ///     sometimes: 0,
     ///     report,
     ///     worst: Severity::Hard,
     ///     persistence: Persistence::Permanent,

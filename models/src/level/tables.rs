@@ -135,6 +135,8 @@ pub struct Setting {
 pub struct Failure {
     /// The flags that always show it, a bit each.
     pub flags: u64,
+    /// The flags that show it at times, a bit each.
+    pub sometimes: u64,
     /// The report of it.
     pub report: u8,
     /// Severity at worst.

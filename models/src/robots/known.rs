@@ -83,6 +83,8 @@ pub const SLOWED: RangeInclusive<i64> = 1..=999;
 pub const HARM_UNITS: RangeInclusive<i64> = 0..=15;
 /// Parts that a harm takes, in thousandths.
 pub const HARMED: RangeInclusive<i64> = 1..=1_000;
+/// Time that comes to jobs, in thousandths of what they take.
+pub const LENGTHENED: RangeInclusive<i64> = 1..=60_000;
 /// Effects of failures on motion, with their names.
 pub const MOTIONS: [(&str, Motion); 5] = [
     ("blocked", Motion::Blocked),

@@ -82,6 +82,26 @@ pub enum Watch {
     NoImage,
     /// Images that are old.
     OldImage,
+    /// Ranges of which many jump from reading to reading.
+    RangeOutliers,
+    /// Odometry that leaves localisation slowly, over a minute.
+    PoseDrifts,
+    /// Wheels that turn faster than they are told.
+    Runaway,
+    /// The emergency button, as the micro-controller tells it.
+    EmergencyStop,
+    /// A planner that finds no path.
+    PlanFailed,
+    /// A job of a module that was late, and the next one is not.
+    JobLate,
+    /// A module that localises and is late again and again.
+    LocalisationLate,
+    /// Another module that is late again and again.
+    ModuleLate,
+    /// A module that publishes nothing and is not late.
+    ModuleSilent,
+    /// A module that publishes values that are none.
+    ValueOutside,
 }
 
 /// The harm that a failure does to a device or a module.
@@ -129,6 +149,42 @@ pub enum Harm {
     PoseLost,
     /// Something that is on no map stands in the way.
     MapWrong,
+    /// Somebody stands in the way.
+    PersonInWay,
+    /// Something that no sonar sees stands in the way.
+    ThingUnseen,
+    /// Sonars read echoes from anywhere, now and then.
+    SonarsNoisy,
+    /// A wheel is smaller than its odometry knows.
+    WheelsUnequal,
+    /// The bumpers are never pressed.
+    BumperDead,
+    /// The motors run as fast as they can, whatever they are told.
+    MotorRunaway,
+    /// The emergency button is pressed: motors are off.
+    EmergencyStop,
+    /// The planner finds no path.
+    PlanFails,
+    /// All modules take longer.
+    ComputerBusy,
+    /// A module takes longer.
+    ModuleSlow,
+    /// A module is gone: it publishes nothing.
+    ModuleCrashed,
+    /// A module publishes values that are none.
+    ModuleWrong,
+}
+
+impl Harm {
+    /// Whether it harms a module of the robot, which the failure names.
+    pub const fn is_of_module(self) -> bool {
+        matches!(self, Self::ModuleSlow | Self::ModuleCrashed | Self::ModuleWrong)
+    }
+
+    /// Whether it lengthens the time of jobs: by any part, not by the whole at most.
+    pub const fn lengthens(self) -> bool {
+        matches!(self, Self::ModuleSlow | Self::ComputerBusy)
+    }
 }
 
 /// A harm, and how much of it.
@@ -136,9 +192,9 @@ pub enum Harm {
 pub struct Harmed {
     /// The harm.
     pub harm: Harm,
-    /// The sonar, from 0 on, or the side: 0 is left, 1 is right.
+    /// The sonar, from 0 on; the side, of which 0 is left, 1 is right; or the module.
     pub unit: u8,
-    /// The part that is lost, in thousandths.
+    /// The part that is lost, in thousandths; of jobs, the time that comes to them.
     pub permille: u16,
 }
 
@@ -158,7 +214,7 @@ pub const ROLES: [(&str, Role); 8] = [
 pub const TOLD: &str = "told";
 
 /// Signals that flags are made of, by their words.
-pub const WATCHES: [(&str, Watch); 27] = [
+pub const WATCHES: [(&str, Watch); 37] = [
     ("largest range", Watch::LargestRange),
     ("shortest range", Watch::ShortestRange),
     ("no ranges", Watch::NoRanges),
@@ -186,10 +242,20 @@ pub const WATCHES: [(&str, Watch); 27] = [
     ("packet restart", Watch::PacketRestart),
     ("no image", Watch::NoImage),
     ("old image", Watch::OldImage),
+    ("range outliers", Watch::RangeOutliers),
+    ("pose drifts", Watch::PoseDrifts),
+    ("runaway", Watch::Runaway),
+    ("emergency stop", Watch::EmergencyStop),
+    ("plan failed", Watch::PlanFailed),
+    ("job late", Watch::JobLate),
+    ("localisation late", Watch::LocalisationLate),
+    ("module late", Watch::ModuleLate),
+    ("module silent", Watch::ModuleSilent),
+    ("value outside", Watch::ValueOutside),
 ];
 
 /// Harms of failures, by their words.
-pub const HARMS: [(&str, Harm); 21] = [
+pub const HARMS: [(&str, Harm); 33] = [
     ("sonar far", Harm::SonarFar),
     ("sonar near", Harm::SonarNear),
     ("sonars silent", Harm::SonarSilent),
@@ -211,4 +277,16 @@ pub const HARMS: [(&str, Harm); 21] = [
     ("link weak", Harm::LinkWeak),
     ("pose lost", Harm::PoseLost),
     ("map wrong", Harm::MapWrong),
+    ("person in the way", Harm::PersonInWay),
+    ("thing unseen", Harm::ThingUnseen),
+    ("sonars noisy", Harm::SonarsNoisy),
+    ("wheels unequal", Harm::WheelsUnequal),
+    ("bumper dead", Harm::BumperDead),
+    ("motor runaway", Harm::MotorRunaway),
+    ("emergency stop", Harm::EmergencyStop),
+    ("plan fails", Harm::PlanFails),
+    ("computer busy", Harm::ComputerBusy),
+    ("module slow", Harm::ModuleSlow),
+    ("module crashed", Harm::ModuleCrashed),
+    ("module wrong", Harm::ModuleWrong),
 ];

@@ -227,8 +227,10 @@ fn mask(robot: &Robot, report: usize, it: &super::Mask) -> Mask {
 pub(super) fn failure(robot: &Robot, (number, it): (usize, &Failure)) -> level::Failure {
     let reports = &robot.losses.reports;
     let report = reports.iter().position(|it| it.failures.contains(&number));
+    let set = |flags: &[usize]| flags.iter().fold(0, |set, flag| set | 1 << flag);
     level::Failure {
-        flags: it.flags.iter().fold(0, |set, flag| set | 1 << flag),
+        flags: set(&it.flags),
+        sometimes: set(&it.sometimes),
         report: report.unwrap_or(level::MAX_REPORTS) as u8,
         worst: it.autonomous.max(it.operator),
         persistence: it.persistence,

@@ -62,6 +62,8 @@ pub struct Localiser<'c> {
     drawn: Vec<u32>,
     motion: Stream,
     chance: Stream,
+    /// The most particles that are drawn; never less than `min_particles`.
+    most: usize,
     /// The odometry of the last update.
     odometry: Option<Pose>,
     /// Updates since particles were drawn anew.
@@ -86,6 +88,7 @@ impl<'c> Localiser<'c> {
             drawn: Vec::with_capacity(most),
             motion: streams.stream(&format!("{name} motion")),
             chance: streams.stream(&format!("{name} chance")),
+            most,
             odometry: None,
             updates: 0,
             estimate: Estimate {
@@ -105,6 +108,12 @@ impl<'c> Localiser<'c> {
             None => it.start_anywhere(),
         }
         it
+    }
+
+    /// Draws at most so many particles from now on, within those of the parameters.
+    pub fn allow(&mut self, most: usize) {
+        let of = self.chart.parameters();
+        self.most = most.clamp(of.min_particles, of.max_particles);
     }
 
     /// Starts where the robot is said to be, with the covariance of x and y in metres and the
@@ -270,8 +279,8 @@ impl<'c> Localiser<'c> {
     /// Draws particles anew: their number by KLD-sampling, which ones with low variance.
     fn draw(&mut self) {
         debug_assert!((self.now.weight.iter().sum::<f64>() - 1.0).abs() < 1e-9, "weights sum to 1");
-        let Parameters { max_particles, min_particles, pf_err, pf_z, .. } =
-            *self.chart.parameters();
+        let Parameters { min_particles, pf_err, pf_z, .. } = *self.chart.parameters();
+        let max_particles = self.most;
         let stray = self.stray();
         self.sums.fill(&self.now.weight);
         self.next.clear();

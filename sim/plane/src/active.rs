@@ -48,6 +48,7 @@ impl Active {
                     effect.grips.iter_mut().zip(drawn).for_each(|(grip, it)| *grip *= 1.0 - it);
                 }
             }
+            Defect::Worn(side, share) => *side.of(&mut effect.grips) *= 1.0 - share,
             Defect::DeadCell => *dead = dead.saturating_add(1),
         }
     }

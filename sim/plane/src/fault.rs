@@ -24,6 +24,8 @@ pub enum Defect {
     Weak(Side, f64),
     /// Wheels slip.
     Slip(Slip),
+    /// A wheel is smaller by this share of its radius, which odometry does not know, from 0 to 1.
+    Worn(Side, f64),
     /// A cell of the battery gives no voltage.
     DeadCell,
 }
@@ -58,6 +60,7 @@ impl Effect for Defect {
             Self::Jam(_) | Self::EncoderDead(_) | Self::DeadCell => Ok(()),
             Self::EncoderLossy(_, it) => within("the share of the counts", it, 0.0, 1.0),
             Self::Weak(_, it) => within("the share of the speed", it, 0.0, 1.0),
+            Self::Worn(_, it) => within("the share of the radius", it, 0.0, 1.0),
             Self::Slip(Slip { least, most, patch }) => {
                 within("the least slip", least, 0.0, 1.0)?;
                 within("the largest slip", most, least, 1.0)?;

@@ -27,6 +27,8 @@ pub struct Rover<'c> {
     aside: Aside,
     moved: bool,
     touches: bool,
+    /// Whether it touched something in the last period.
+    is_pressed: bool,
     people: Option<People>,
     /// Things in its way that are on no map.
     things: Vec<Disc>,
@@ -77,6 +79,7 @@ impl<'c> Rover<'c> {
             aside: Aside::No,
             moved: false,
             touches: false,
+            is_pressed: false,
             people,
             things: Vec::new(),
             belief: None,
@@ -146,6 +149,11 @@ impl<'c> Rover<'c> {
     /// Whether it ran against something.
     pub const fn touches(&self) -> bool {
         self.touches
+    }
+
+    /// Whether it touched something in the last period.
+    pub const fn is_pressed(&self) -> bool {
+        self.is_pressed
     }
 
     /// Lets it believe that its odometry began at this pose: from now on it follows its path by
@@ -235,6 +243,7 @@ impl<'c> Rover<'c> {
     /// reached holds it.
     pub fn go(&mut self, towards: MillimetresPerSecond, end: Millimetres, time: Millis) {
         self.moved = false;
+        self.is_pressed = false;
         self.now.0 += time.0;
         let towards = towards.0 as f64 / 1_000.0;
         let slowed = if self.people.is_some() { self.among_people(towards) } else { towards };
@@ -250,6 +259,14 @@ impl<'c> Rover<'c> {
             steps -= self.step(towards, end, steps);
         }
         self.odometry.read(self.course.drivetrain(), self.vehicle.counts(self.course.drivetrain()));
+    }
+
+    /// Whether its last step, from where it was before, led it further into a thing.
+    fn runs_into_a_thing(&self, before: &Vehicle) -> bool {
+        let radius = self.course.drivetrain().footprint.radius();
+        let of = |it: &Vehicle| Disc { centre: it.pose().translation.vector.into(), radius };
+        let (before, now) = (of(before), of(&self.vehicle));
+        self.things.iter().any(|it| now.gap(it) < before.gap(it).min(0.0))
     }
 
     /// Returns the speed at which it still stands before it comes close to somebody on its path: it
@@ -269,7 +286,8 @@ impl<'c> Rover<'c> {
         let seen = Disc { radius: robot.radius + brakes, ..robot };
         for person in people.advance(now, &[seen]) {
             let gap = robot.gap(person);
-            self.touches |= gap < 0.0;
+            self.is_pressed |= gap < 0.0;
+            self.touches |= self.is_pressed;
             // Ahead alone: a path may lead back over where it came from.
             let (near, aside) = track.find(person.centre, along, along + LOOKS);
             let is_ahead = near.along > along && gap < LOOKS;
@@ -307,9 +325,16 @@ impl<'c> Rover<'c> {
         let (steps, time) = if even { (most, all) } else { (1, STEP) };
         let effect = self.drive.effect(pose.translation.vector.into());
         let surface = course.surface();
+        let vehicle = (!self.things.is_empty()).then(|| self.vehicle.clone());
         let step = self.vehicle.step_under(drivetrain, surface, command, time, &effect);
         self.drive.took(&step, steps);
-        self.touches |= self.vehicle.touches();
+        self.is_pressed |= self.vehicle.touches();
+        if let Some(before) = vehicle.filter(|it| self.runs_into_a_thing(it)) {
+            self.vehicle = before;
+            self.vehicle.stand();
+            self.is_pressed = true;
+        }
+        self.touches |= self.is_pressed;
         self.moved |= *self.vehicle.pose() != before;
         if self.belief.is_some() {
             self.odometry.read(drivetrain, self.vehicle.counts(drivetrain));

@@ -8,7 +8,7 @@ use crate::sensors::Sensors;
 use crate::{NoRecording, told, true_pose};
 use cotama_devices::SettingsError;
 use cotama_floor::Pose;
-use cotama_sim::trace::supervised::{Configured, Diagnosis, Failure};
+use cotama_sim::trace::supervised::{Configured, Diagnosis, Failure, Status};
 use cotama_sim::trace::{self, Record, Sample, Trace, Used};
 
 /// The most poses at which sensors read: of more it is every second, every third and so on.
@@ -88,6 +88,7 @@ pub fn mcap(trace: &Trace) -> Result<Vec<u8>, NoRecording> {
             Record::Failure(it) => file.put("/diagnostics", t_us, &failure(it)),
             Record::Diagnosis(it) => file.put("/diagnostics", t_us, &diagnosis(it)),
             Record::Configuration(it) => file.put("/configuration", t_us, &configuration(it)),
+            Record::Status(it) => file.put("/status", t_us, &status(it)),
             _ => {}
         }
     }
@@ -170,6 +171,12 @@ fn diagnosis(it: &Diagnosis) -> Message {
     ];
     let report = it.report.as_deref().unwrap_or("recorded only");
     messages::diagnostics(it.t_us, Level::Warn, ["diagnosis", report], &values)
+}
+
+fn status(it: &Status) -> Message {
+    let (lost, without) = (it.lost.join(", "), it.without.join(", "));
+    let values = [("lost", lost), ("without it", without)];
+    messages::diagnostics(it.t_us, Level::Warn, ["status", "modules"], &values)
 }
 
 fn configuration(it: &Configured) -> Message {

@@ -12,6 +12,10 @@ pub(crate) struct Packet {
     pub(crate) wheels: Wheels,
     pub(crate) stalled: [bool; 2],
     pub(crate) pressed: u16,
+    /// Whether the emergency button is.
+    pub(crate) is_stopped: bool,
+    /// The speed of the wheels, in m/s.
+    pub(crate) speed_m_s: f64,
     pub(crate) supply: Supply,
     /// The way that the wheels have gone, in metres.
     pub(crate) way_m: f64,
@@ -23,8 +27,9 @@ pub(crate) struct Packet {
 #[derive(Clone, Debug)]
 pub(crate) struct Base {
     pub(crate) settings: WheelSettings,
-    /// The resistance of the battery, in Ω.
+    /// The resistance of the battery, in Ω, and the acceleration of the wheels, in m/s².
     pub(crate) ohms: f64,
+    pub(crate) acceleration: f64,
     noise: Stream,
     counts: [i64; 2],
     way_m: f64,
@@ -64,8 +69,8 @@ impl Base {
     pub(crate) fn new(of: &Drivetrain, noise: Stream) -> Self {
         let ohms = of.battery.map_or(OHMS, |it| it.resistance());
         let (counts, way_m) = ([0; 2], 0.0);
-        let settings = settings(of);
-        Self { settings, ohms, noise, counts, way_m, restarts: false, newest: None }
+        let (settings, acceleration) = (settings(of), of.acceleration);
+        Self { settings, ohms, acceleration, noise, counts, way_m, restarts: false, newest: None }
     }
 
     /// Begins anew with the next packet.
@@ -97,7 +102,8 @@ impl Base {
         let ways = [0, 1]
             .map(|side: usize| (counts[side] - self.counts[side]) as f64 * turn * drivetrain.wheel);
         self.counts = counts;
-        self.way_m += f64::midpoint(ways[0], ways[1]).abs();
+        let way_m = f64::midpoint(ways[0], ways[1]).abs();
+        self.way_m += way_m;
         let noise = self.noise.error() * 0.01;
         let supply = signals.battery.map_or(Supply { volts: f64::NAN, amperes: 0.0 }, |it| {
             Supply { volts: it.voltage_v + noise, amperes: it.current_a }
@@ -107,12 +113,14 @@ impl Base {
         if is_lost || has(Harm::PacketsSilent).is_some() {
             return;
         }
-        let touches = rover.touches();
+        let touches = rover.is_pressed() && has(Harm::BumperDead).is_none();
         let pressed = u16::from(touches || has(Harm::BumperClosed).is_some());
         let packet = Packet {
             wheels: Wheels { dt, commanded, encoder, current, gyro: None },
             stalled: motors.map_or([false; 2], |it| it.stalled),
             pressed,
+            is_stopped: has(Harm::EmergencyStop).is_some(),
+            speed_m_s: way_m / dt,
             supply,
             way_m: self.way_m,
             is_first: core::mem::take(&mut self.restarts),
@@ -168,6 +176,7 @@ pub(crate) fn faults(harms: &[Harmed]) -> Vec<DriveFault> {
             Harm::WheelsStall => vec![Defect::Jam(Side::Left), Defect::Jam(Side::Right)],
             Harm::MotorWeak => vec![Defect::Weak(side, rest)],
             Harm::MotorDead => vec![Defect::Weak(side, 0.0)],
+            Harm::WheelsUnequal => vec![Defect::Worn(side, part)],
             Harm::BatteryCritical => vec![Defect::DeadCell],
             _ => Vec::new(),
         }

@@ -5,7 +5,7 @@ use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_devices::{Ring, Scene, SettingsError, Streams};
 use cotama_localisation::{Chart, Model, Parameters, Sensor};
 use cotama_models::robots::Body;
-use cotama_observers::{SonarSurvey, Survey, Tail};
+use cotama_observers::{Jumps, SonarSurvey, Survey, Tail};
 use cotama_plane::{Course, Rover};
 use std::fmt;
 
@@ -17,6 +17,7 @@ pub struct Bench {
     pub(crate) near: SonarSurvey,
     pub(crate) behind: Tail,
     pub(crate) waits: Tail,
+    pub(crate) jumps: Tail,
 }
 
 /// Why a robot has no senses.
@@ -48,9 +49,10 @@ impl From<SettingsError> for NoBench {
 /// Cells of the chart, in metres.
 const CELL_M: f64 = 0.1;
 /// Spells at the largest range, and at a short one, that a survey notes, in metres of way.
-const FAR_BEYOND_M: f64 = 1.0;
+const FAR_BEYOND_M: f64 = 0.25;
 const NEAR_BEYOND_M: f64 = 0.3;
 /// The longest survey.
+const JUMPY_BEYOND_S: f64 = 0.2;
 const LONGEST: Millis = Millis(3_600_000);
 
 /// Parameters of the filter: 100 to 500 particles; the ring is one reading of 16 beams.
@@ -84,6 +86,8 @@ impl Bench {
         let mut near = SonarSurvey::new(RANGE_M, NEAR_BEYOND_M)?;
         let mut behind = Survey::beyond(2.0)?;
         let mut waits = Survey::beyond(2.0)?;
+        let mut jumps = Survey::beyond(JUMPY_BEYOND_S)?;
+        let (mut jumping, mut jumping_s) = (Jumps::default(), 0.0);
         let streams = Streams::new(0x5EED);
         let mut ring = Ring::new(&settings, &streams, "survey")?;
         let mut rover = Rover::new(course, 0);
@@ -96,13 +100,19 @@ impl Bench {
             ring.sense(rover.now(), rover.pose(), &Scene::of(course.surface(), &[]));
             if let Some(read) = ring.latest(rover.now()) {
                 far.look(read, way_m, period);
+                if jumping.look(read) {
+                    jumping_s += period.0 as f64 / 1_000.0;
+                } else {
+                    jumps.add(core::mem::take(&mut jumping_s));
+                }
                 let shorts: Vec<_> = read.iter().map(|it| it.map(short)).collect();
                 near.look(&shorts, way_m, period);
             }
         }
         behind.watch(rover.now());
         waits.watch(rover.now());
-        let (behind, waits) = (behind.tail()?, waits.tail()?);
-        Ok(Self { chart, far, near, behind, waits })
+        jumps.watch(rover.now());
+        let (behind, waits, jumps) = (behind.tail()?, waits.tail()?, jumps.tail()?);
+        Ok(Self { chart, far, near, behind, waits, jumps })
     }
 }

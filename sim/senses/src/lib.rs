@@ -19,8 +19,10 @@
 #![allow(clippy::cast_precision_loss)] // times and lengths of a mission are below 2^53
 #![allow(clippy::cast_sign_loss)] // lengths along a path are at least 0
 
+mod around;
 mod base;
 mod bench;
+mod modules;
 mod observing;
 mod senses;
 mod sonars;

@@ -2,18 +2,21 @@
 
 use crate::base::{Base, CRITICAL_V, LOW_V};
 use crate::bench::Bench;
+use crate::modules::Jobs;
 use crate::sonars::short;
 use cotama_core::units::Millis;
 use cotama_devices::{Rate, Sensed, SettingsError};
 use cotama_models::robots::{Observer, Robot, Watch};
 use cotama_observers::{
     Age, Apart, Backward, Battery, Braking, Bumper, Contact, Convergence, Deadlines, FalseAlarms,
-    FarSonars, Flag, Job, LinkLevel, Mode, OdometryErrors, OnPath, Poses, Progress, Spread, Stall,
-    WheelObserver, WheelRates,
+    FarSonars, Flag, Frozen, Job, LinkLevel, Mode, OdometryErrors, OnPath, Outliers, Poses,
+    Progress, Runaway, Spread, Stall, WheelObserver, WheelRates,
 };
 
 /// False alarms per hour of each flag (assumed: one in 100 hours).
 const PER_HOUR: f64 = 0.01;
+/// The noise of a range, in metres.
+const NOISE_M: f64 = 0.02;
 /// The room ahead in which bumpers are not to be pressed, in metres.
 const ROOM_M: f64 = 0.5;
 
@@ -23,7 +26,8 @@ pub(crate) struct Period<'s> {
     pub(crate) ranges: Option<&'s [Option<Sensed<f64>>]>,
     pub(crate) base: &'s Base,
     pub(crate) poses: Option<Sensed<Poses>>,
-    pub(crate) place: OnPath,
+    /// The place on the path, where the robot follows it by itself.
+    pub(crate) place: Option<OnPath>,
     pub(crate) is_told_to_move: bool,
     pub(crate) level_dbm: Option<Sensed<f64>>,
     /// Times at which the newest sign of the operator's station came, and the newest image; and at
@@ -32,6 +36,10 @@ pub(crate) struct Period<'s> {
     pub(crate) image: Option<(Millis, Millis)>,
     pub(crate) free_m: f64,
     pub(crate) is_packet_lost: bool,
+    pub(crate) jobs: &'s Jobs,
+    /// The speed that the motors were told, in m/s.
+    pub(crate) told_m_s: f64,
+    pub(crate) has_no_plan: bool,
 }
 
 /// The observers.
@@ -43,8 +51,8 @@ pub(crate) struct Observing {
     near: FarSonars,
     ranges: Age,
     wheels: WheelObserver,
-    /// Windows of 0.1, 1, 5 and 10 s.
-    apart: [Apart; 4],
+    /// Windows of 0.1, 1, 5, 10 and 60 s.
+    apart: [Apart; 5],
     spread: Spread,
     backward: Backward,
     convergence: Convergence,
@@ -56,8 +64,13 @@ pub(crate) struct Observing {
     batteries: [Battery; 2],
     packets: Age,
     errors: Deadlines,
+    /// The packets that were lost since the last one that came.
+    lost: u32,
+    frozen: Frozen,
     images: Age,
     old: Age,
+    outliers: Outliers,
+    runaway: Runaway,
 }
 
 impl Observing {
@@ -71,8 +84,12 @@ impl Observing {
         let watches = watches.filter_map(|(flag, it)| Some((1 << flag, it?)));
         let rate = |latency: u64| Rate { period, latency: Millis(latency) };
         let apart = |window: u64| {
-            // The sonars of the ring leave localisation a few centimetres and degrees unsure.
-            let errors = OdometryErrors { way: 0.05, drift: 0.03, turn: 0.06 };
+            // The sonars of the ring leave localisation a few centimetres and degrees unsure,
+            // which counts less and less the longer the window is.
+            let errors = match window {
+                60_000.. => OdometryErrors::pioneer(),
+                _ => OdometryErrors { way: 0.05, drift: 0.03, turn: 0.06 },
+            };
             Apart::new(errors, Millis(window), promise)
         };
         let braking = Braking { speed: 0.3, deceleration: 0.3, latency: 0.2, deviation: 0.02 };
@@ -82,7 +99,7 @@ impl Observing {
             near: FarSonars::new(&bench.near, 16, promise)?,
             ranges: Age::new(rate(100), Millis(10), 0.05, promise)?,
             wheels: WheelObserver::new(base.settings, WheelRates::rare(PER_HOUR)?)?,
-            apart: [apart(100)?, apart(1_000)?, apart(5_000)?, apart(10_000)?],
+            apart: [apart(100)?, apart(1_000)?, apart(5_000)?, apart(10_000)?, apart(60_000)?],
             spread: Spread::new([0.5, 0.35], 100, period, promise)?,
             backward: Backward::new(bench.behind, 0.1, period, promise)?,
             convergence: Convergence::new(Millis(3_000), Millis(2_000), 0.1, promise)?,
@@ -97,8 +114,12 @@ impl Observing {
             ],
             packets: Age::new(rate(0), Millis(20), 0.02, promise)?,
             errors: Deadlines::new(period, 0.001, promise)?,
+            lost: 0,
+            frozen: Frozen::new(NOISE_M, period, promise.shared_by(16))?,
             images: Age::new(rate(200), Millis(50), 0.3, promise)?,
             old: Age::new(rate(400), Millis(100), 0.3, promise)?,
+            outliers: Outliers::new(bench.jumps, promise),
+            runaway: Runaway::new(base.acceleration, 0.02, period, promise)?,
         })
     }
 
@@ -107,6 +128,19 @@ impl Observing {
         self.backward.restart();
         self.convergence.restart();
         self.progress.restart();
+    }
+
+    /// Packets that were lost show themselves when the next one comes: before, none comes.
+    fn lost(&mut self, is_lost: bool) -> Flag {
+        if is_lost {
+            self.lost += 1;
+            return Flag::Missing;
+        }
+        let lost = core::mem::take(&mut self.lost);
+        let flags = (0..lost).map(|_| self.errors.observe(Some(Job::Missed)));
+        let flag = flags.last().unwrap_or(Flag::Clear);
+        self.errors.observe(Some(Job::Kept));
+        flag
     }
 
     /// Returns the flags that are up, a bit each.
@@ -121,6 +155,7 @@ impl Observing {
             *short_one = range.map(short);
         }
         let near = self.near.observe(&shorts, way_m);
+        let frozen = self.frozen.observe(ranges);
         let taken = ranges.iter().flatten().map(|it| it.taken).max();
         let no_ranges = self.ranges.observe(it.now, taken);
         let wheels = packet.map(|it| Sensed { taken: it.taken, value: it.value.wheels });
@@ -132,7 +167,7 @@ impl Observing {
             self.apart.each_mut().map(|it| it.observe(poses))
         };
         let spread = self.spread.observe(it.poses.as_ref().map(|it| &it.value.covariance));
-        let place = Some(Sensed { taken: it.now, value: it.place });
+        let place = it.place.map(|value| Sensed { taken: it.now, value });
         let backward = self.backward.observe(place);
         let off = self.convergence.observe(place);
         let waits = self.progress.observe(place, it.is_told_to_move);
@@ -149,15 +184,20 @@ impl Observing {
         let supply = packet.map(|it| Sensed { taken: it.taken, value: it.value.supply });
         let voltages = self.batteries.each_mut().map(|it| it.observe(supply));
         let silence = self.packets.observe(it.now, it.base.taken());
-        let job = if it.is_packet_lost { Job::Missed } else { Job::Kept };
-        let errors = self.errors.observe(Some(job));
+        let errors = self.lost(it.is_packet_lost);
         let images = self.images.observe(it.now, it.image.map(|it| it.0));
         let old = self.old.observe(it.now, it.image.map(|it| it.1));
+        let outliers = self.outliers.observe(ranges);
+        let speeds = packet.map(|packet| {
+            let Sensed { taken, value } = packet;
+            Sensed { taken, value: [it.told_m_s, value.speed_m_s] }
+        });
+        let runaway = self.runaway.observe(speeds);
         let up = |watch: Watch| -> bool {
             let raised = |it: Flag| it == Flag::Raised;
             match watch {
                 Watch::LargestRange => raised(far),
-                Watch::ShortestRange => raised(near),
+                Watch::ShortestRange => raised(near) || raised(frozen),
                 Watch::NoRanges => raised(no_ranges),
                 Watch::Encoders => {
                     matches!(told, Some(Mode::EncoderDead(_) | Mode::EncoderLossy(_)))
@@ -185,6 +225,16 @@ impl Observing {
                 Watch::PacketRestart => packet.is_some_and(|it| it.value.is_first),
                 Watch::NoImage => raised(images),
                 Watch::OldImage => raised(old) && !raised(images),
+                Watch::RangeOutliers => raised(outliers),
+                Watch::PoseDrifts => raised(apart[4]),
+                Watch::Runaway => raised(runaway),
+                Watch::EmergencyStop => packet.is_some_and(|it| it.value.is_stopped),
+                Watch::PlanFailed => it.has_no_plan,
+                Watch::JobLate
+                | Watch::LocalisationLate
+                | Watch::ModuleLate
+                | Watch::ModuleSilent
+                | Watch::ValueOutside => it.jobs.shows(watch),
             }
         };
         self.watches.iter().filter(|it| up(it.1)).fold(0, |set, it| set | it.0)

@@ -1,17 +1,19 @@
 //! The senses of a robot in one run.
 
+use crate::around::{Around, KEEPS_M, Order, Wants, free};
 use crate::base::{Base, LOW_CHARGE, faults};
 use crate::bench::Bench;
+use crate::modules::{Jobs, Modules};
 use crate::observing::{Observing, Period};
 use crate::sonars::{RANGE_M, ring};
-use cotama_core::units::Millis;
+use cotama_core::executive::{Happening, Latest};
+use cotama_core::units::{Micros, MillimetresPerSecond, Millis};
 use cotama_devices::{
     Disc, Fault, Link, LinkSettings, Mode, Ring, Scene, Sensed, SettingsError, Stream, Streams,
 };
-use cotama_floor::{Point, Pose};
+use cotama_floor::Pose;
 use cotama_localisation::Localiser;
 use cotama_models::robots::{Harm, Harmed, Robot, Role, members};
-use cotama_navigation::{Braking, Histogram, Limits, LocalMap, Thresholds};
 use cotama_observers::{OnPath, Poses};
 use cotama_plane::Rover;
 use nalgebra::{Matrix3, Vector3};
@@ -25,6 +27,8 @@ pub struct Senses<'b> {
     localiser: Localiser<'b>,
     base: Base,
     observing: Observing,
+    modules: Modules,
+    mail: Mail,
     streams: Streams,
     chance: Stream,
     harms: Vec<Harmed>,
@@ -37,19 +41,19 @@ pub struct Senses<'b> {
     image: Option<(Millis, Millis)>,
     heard: Option<Millis>,
     flags: u64,
-    /// The fastest that the ranges leave, in m/s.
-    limit: f64,
+    /// Whether the newest command was given in the last period.
+    is_commanded: bool,
+    /// The things that harms put on the floor, with the harm.
+    put: Vec<(Harm, Disc)>,
     around: Around,
 }
 
-/// The things around the robot, and how it keeps away from them.
-#[derive(Clone, Debug)]
-struct Around {
-    map: LocalMap,
-    histogram: Histogram,
-    /// The odometry of the period before.
-    before: Pose,
-    is_avoiding: bool,
+/// The data that modules publish, each with its age.
+#[derive(Clone, Debug, Default)]
+struct Mail {
+    /// The pose of the odometry's origin, by localisation.
+    origin: Latest<Pose>,
+    order: Latest<Order>,
 }
 
 /// Modules and motion of the robot in a period, as its configuration allows.
@@ -61,28 +65,42 @@ pub struct Uses {
     pub is_led: bool,
     /// Whether it is told to move.
     pub moves: bool,
+    /// The fastest that the motors go.
+    pub fastest: MillimetresPerSecond,
+    /// Whether the motors are halted: those that run away stand, too.
+    pub is_halted: bool,
+    /// The modules that begin anew in this period, a bit each.
+    pub restarted: u64,
+    /// The most particles of localisation.
+    pub particles: u64,
 }
 
-/// The room that the robot keeps ahead, in metres, and how far ahead along its path it looks.
-const KEEPS_M: f64 = 0.25;
-const AHEAD_M: f64 = 2.0;
-/// The room along its path below which it leaves it, and from which it takes it up again; how far
-/// ahead on it the place is that it then goes for.
-const NEAR_M: f64 = 0.7;
-const FREE_M: f64 = 1.2;
-const PURSUED_M: f64 = 1.5;
-/// The points around it that it keeps: three of each sonar, for 2 s.
-const MOST_POINTS: usize = 1_000;
-/// The room that avoidance keeps beside the robot, in metres.
-const MARGIN_M: f64 = 0.05;
-/// By how much a pose may be wrong: paths have just the room that the robot needs.
-const ASIDE_M: f64 = 0.07;
+impl Default for Uses {
+    fn default() -> Self {
+        Self {
+            modules: 0,
+            is_led: false,
+            moves: false,
+            fastest: MillimetresPerSecond(0),
+            is_halted: false,
+            restarted: 0,
+            particles: u64::MAX,
+        }
+    }
+}
+
 /// A speed that no robot has, in mm/s.
 const MOST_MM_S: f64 = 1e6;
 /// Way by which localisation is led astray when it is lost, in metres.
 const ASTRAY_M: f64 = 1.5;
-/// Place of a thing that is on no map: so far ahead along the path; and its radius, in metres.
-const THING: [f64; 2] = [1.5, 0.25];
+/// Things that harms put on the floor, each so far ahead along the path; their radius, in metres,
+/// and the places that are tried, 10 cm one after the other.
+const THINGS: [(Harm, f64); 3] =
+    [(Harm::MapWrong, 1.5), (Harm::PersonInWay, 1.0), (Harm::ThingUnseen, 0.9)];
+const THING_M: f64 = 0.25;
+const THING_STEPS: u32 = 50;
+/// Noise of ranges that read anything, in metres.
+const NOISY_M: f64 = 1.0;
 /// Loss of level of a weak link, in dB.
 const WEAKER_DB: f64 = 30.0;
 /// The deviations of the pose at which a robot is put down or led to: 5 cm and 3°.
@@ -112,6 +130,8 @@ impl<'b> Senses<'b> {
             localiser: Localiser::new(&bench.chart, &streams, "localisation"),
             base,
             observing,
+            modules: Modules::new(robot)?,
+            mail: Mail::default(),
             streams,
             chance: streams.stream("senses"),
             harms: Vec::new(),
@@ -122,13 +142,9 @@ impl<'b> Senses<'b> {
             image: None,
             heard: None,
             flags: 0,
-            limit: f64::INFINITY,
-            around: Around {
-                map: LocalMap::new(MOST_POINTS, Millis(2_000)),
-                histogram: Histogram::new(braking(rover), Thresholds::default()),
-                before: *rover.odometry(),
-                is_avoiding: false,
-            },
+            is_commanded: true,
+            put: Vec::new(),
+            around: Around::new(rover),
         };
         it.put(rover.pose());
         Ok(it)
@@ -141,12 +157,27 @@ impl<'b> Senses<'b> {
 
     /// Returns the fastest that ranges ahead leave, in mm/s.
     pub fn limit_mm_s(&self) -> u64 {
-        (self.limit * 1_000.0).min(MOST_MM_S) as u64
+        let last = self.mail.order.read(Micros(0)).map_or(f64::INFINITY, |it| it.0.limit_m_s);
+        (last * 1_000.0).min(MOST_MM_S) as u64
     }
 
-    /// Whether commands reach the motors.
+    /// Whether a new command is given, and reaches the motors.
     pub fn is_heard(&self) -> bool {
-        !self.harms.iter().any(|it| it.harm == Harm::PacketsSilent)
+        self.is_commanded && !self.has(Harm::PacketsSilent)
+    }
+
+    /// Whether the emergency button cuts the motors off.
+    pub fn is_cut(&self) -> bool {
+        self.has(Harm::EmergencyStop)
+    }
+
+    /// Whether the motors run away.
+    pub fn runs_away(&self) -> bool {
+        self.has(Harm::MotorRunaway)
+    }
+
+    fn has(&self, harm: Harm) -> bool {
+        self.harms.iter().any(|it| it.harm == harm)
     }
 
     /// The robot is put down at a pose that is known.
@@ -196,41 +227,88 @@ impl<'b> Senses<'b> {
             pose.translation.vector += nalgebra::Vector2::new(cos, sin) * ASTRAY_M;
             self.put(&pose);
         }
-        if is_new(Harm::MapWrong) {
+        self.put.retain(|it| has(harms, it.0));
+        for (harm, ahead) in THINGS.into_iter().filter(|it| is_new(it.0)) {
             let track = rover.course().track();
             let (near, _) = track.find(rover.pose().translation.vector.into(), 0.0, track.length());
-            let there = track.pose(near.piece, near.along + THING[0]);
-            rover.put(Some(Disc { centre: there.translation.vector.into(), radius: THING[1] }));
-        } else if !harms.iter().any(|it| it.harm == Harm::MapWrong) {
-            rover.put(None);
+            // Further on where the path leads back to where the robot is.
+            let robot = rover.pose().translation.vector;
+            let clear = rover.course().drivetrain().footprint.radius() + THING_M + KEEPS_M;
+            let places = (0..THING_STEPS).map(|step| {
+                let along = near.along + ahead + f64::from(step) * 0.1;
+                track.pose(near.piece, along).translation.vector
+            });
+            let mut places = places.filter(|it| (it - robot).norm() > clear);
+            let there = places.next().map(|it| Disc { centre: it.into(), radius: THING_M });
+            self.put.extend(there.map(|it| (harm, it)));
         }
+        rover.put(None);
+        self.put.iter().for_each(|it| rover.put(Some(it.1)));
     }
 
     /// Senses after a period, and looks what is wrong.
-    pub fn sense(&mut self, rover: &mut Rover<'_>, uses: Uses, time: Millis) {
+    ///
+    /// `told` is the speed that the motors were told.
+    pub fn sense(
+        &mut self,
+        rover: &mut Rover<'_>,
+        uses: Uses,
+        told: MillimetresPerSecond,
+        time: Millis,
+    ) {
         let now = rover.now();
-        let around: Vec<Disc> = rover.people().iter().chain(rover.things()).copied().collect();
+        let things = self.put.iter().filter(|it| it.0 != Harm::ThingUnseen).map(|it| &it.1);
+        let around: Vec<Disc> = rover.people().iter().chain(things).copied().collect();
         let scene = Scene::of(rover.course().surface(), &around);
         self.ring.sense(now, rover.pose(), &scene);
         let packets = self.base.taken();
         self.base.read(rover, time.0 as f64 / 1_000.0, &self.harms);
         let is_packet_lost = self.base.taken() == packets;
-        self.hear(now, rover);
+        self.modules.restart(uses.restarted);
+        let particles = self.localiser.estimate().particles;
+        let jobs = self.modules.pass(uses.modules, &self.harms, particles, (now, time));
+        self.localiser.allow(usize::try_from(uses.particles).unwrap_or(usize::MAX));
         let has = |role: Role| {
             let all = members(uses.modules).filter_map(|it| self.robot.modules.get(it));
             all.flat_map(|it| &it.roles).any(|it| *it == role)
         };
         let (locates, avoids) = (has(Role::Localisation), has(Role::Avoidance));
-        let read = self.ring.latest(now).unwrap_or(&[]);
-        self.ranges.swap(0, 1);
-        for (range, it) in self.ranges[0].iter_mut().zip(read) {
-            *range = it.map_or(RANGE_M, |it| it.value);
+        // A role that runs in no module takes no time; one that does works as its module publishes.
+        let works = |role: Role| !has(role) || jobs.of(self.robot, role).is_some();
+        let commander = if uses.is_led { Role::Link } else { Role::Guidance };
+        self.is_commanded = works(commander);
+        let has_no_plan = has(Role::Planning) && self.has(Harm::PlanFails);
+        let (is_read, is_seen, is_linked) =
+            (works(Role::Ranges), works(Role::Images), works(Role::Link));
+        self.hear(now, rover, [is_seen, is_linked]);
+        if is_read {
+            let read = self.ring.latest(now).unwrap_or(&[]);
+            self.ranges.swap(0, 1);
+            for (range, it) in self.ranges[0].iter_mut().zip(read) {
+                *range = it.map_or(RANGE_M, |it| it.value);
+            }
         }
-        self.locate(rover, locates, uses.is_led);
-        let free = self.free(rover);
-        self.keep_away(rover, free, avoids && !uses.is_led, time);
+        self.locate(rover, locates, &jobs, uses.is_led);
+        let free = free(rover, &self.ranges);
+        self.around.see(rover, &self.ring, time);
+        let published = jobs.of(self.robot, Role::Avoidance).and_then(Happening::publication);
+        let wants = if uses.is_led {
+            Wants::Led
+        } else if avoids {
+            Wants::Avoids
+        } else {
+            Wants::Goes
+        };
+        match (wants, published) {
+            (Wants::Avoids, None) => {} // the last order holds until the next one
+            (_, published) => match (self.around.order(rover, free, wants), published) {
+                (Some(order), Some(it)) => self.mail.order.publish(it, order),
+                _ => self.mail.order = Latest::empty(),
+            },
+        }
         let estimate = self.localiser.estimate();
-        let poses = locates.then(|| Poses {
+        let is_new = jobs.of(self.robot, Role::Localisation).is_some();
+        let poses = (locates && is_new).then(|| Poses {
             odometry: *rover.odometry(),
             located: self.localiser.pose_at(rover.odometry()),
             covariance: estimate.covariance,
@@ -239,40 +317,47 @@ impl<'b> Senses<'b> {
         let along = rover.along();
         let at = rover.believed().translation.vector.into();
         let (near, lateral_m) = track.find(at, (along - 1.0).max(0.0), along + 1.0);
+        let follows = uses.moves && !uses.is_led;
+        if uses.is_led {
+            self.observing.restart(); // he knows no path
+        }
         let read = self.ring.latest(now);
         let period = Period {
             now,
             ranges: read,
             base: &self.base,
             poses: poses.map(|value| Sensed { taken: now, value }),
-            place: OnPath { along_m: near.along, lateral_m },
+            place: follows.then_some(OnPath { along_m: near.along, lateral_m }),
             is_told_to_move: uses.moves,
             level_dbm: self.link.latest(now),
             heard: self.heard,
             image: self.image,
             free_m: free,
             is_packet_lost,
+            jobs: &jobs,
+            told_m_s: told.0 as f64 / 1_000.0,
+            has_no_plan,
         };
         self.flags = self.observing.look(&period);
     }
 
     /// Images and the operator's station.
-    fn hear(&mut self, now: Millis, rover: &Rover<'_>) {
+    fn hear(&mut self, now: Millis, rover: &Rover<'_>, [is_seen, is_linked]: [bool; 2]) {
         let has = |harm: Harm| self.harms.iter().any(|it| it.harm == harm);
         let at = rover.pose().translation.vector.into();
         self.link.sense(now, at, rover.course().surface());
         let is_down = has(Harm::LinkDown);
-        if !is_down {
+        if !is_down && is_linked {
             self.heard = Some(now);
         }
-        if !has(Harm::CameraSilent) {
+        if !has(Harm::CameraSilent) && is_seen {
             let late = if has(Harm::CameraLate) { 2_000 } else { 0 };
             self.image = Some((now, Millis(now.0.saturating_sub(late))));
         }
     }
 
     /// Works out where the robot is, and lets it believe so.
-    fn locate(&mut self, rover: &mut Rover<'_>, locates: bool, is_led: bool) {
+    fn locate(&mut self, rover: &mut Rover<'_>, locates: bool, jobs: &Jobs, is_led: bool) {
         let odometry = *rover.odometry();
         if is_led {
             self.origin = rover.pose() * odometry.inverse();
@@ -280,71 +365,18 @@ impl<'b> Senses<'b> {
             if self.is_led || (locates && !self.is_located) {
                 self.put(&(self.origin * odometry));
             }
-            if locates {
+            let published =
+                jobs.of(self.robot, Role::Localisation).and_then(Happening::publication);
+            if let (true, Some(publication)) = (locates, published) {
                 self.localiser.update(&odometry, &self.ranges[0]);
-                self.origin = self.localiser.pose_at(&odometry) * odometry.inverse();
+                let origin = self.localiser.pose_at(&odometry) * odometry.inverse();
+                self.mail.origin.publish(publication, origin);
+                self.origin = origin;
             }
         }
         (self.is_led, self.is_located) = (is_led, locates);
         rover.believe(self.origin);
     }
-
-    /// Keeps away from things: where something is in the way, VFH+ chooses another one; where it
-    /// chooses none, the robot brakes before it.
-    fn keep_away(&mut self, rover: &mut Rover<'_>, free: f64, avoids: bool, time: Millis) {
-        let odometry = *rover.odometry();
-        let around = &mut self.around;
-        let motion = around.before.inverse() * odometry;
-        around.before = odometry;
-        around.map.advance(&motion, time);
-        let settings = ring();
-        if let Some(read) = self.ring.latest(rover.now()) {
-            around.map.take_ring(&settings.mounts, settings.cone_rad, RANGE_M, read);
-        }
-        let until = if around.is_avoiding { FREE_M } else { NEAR_M };
-        around.is_avoiding = avoids && free < until;
-        let room = (free - KEEPS_M).max(0.0);
-        let brakes = (2.0 * rover.course().drivetrain().acceleration * room).sqrt();
-        if !around.is_avoiding {
-            rover.steer(None);
-            self.limit = if avoids { brakes } else { f64::INFINITY };
-            return;
-        }
-        let (track, along) = (rover.course().track(), rover.along());
-        let (near, _) = track.find(rover.believed().translation.vector.into(), along, along + 0.5);
-        let there = track.pose(near.piece, near.along + PURSUED_M);
-        let target = rover.believed().inverse_transform_point(&there.translation.vector.into());
-        let now = rover.vehicle().speeds();
-        let speed = rover.course().drivetrain().speed / 2.0;
-        let choice = around.histogram.choose(&around.map, now, target, speed);
-        rover.steer(Some(choice.command()));
-        self.limit = f64::INFINITY;
-    }
-
-    /// Returns the room along the path by the ranges, in metres beyond the robot: up to the first
-    /// echo so near to the path that the robot would touch what sent it.
-    fn free(&self, rover: &Rover<'_>) -> f64 {
-        let radius = rover.course().drivetrain().footprint.radius();
-        let (track, along, pose) = (rover.course().track(), rover.along(), rover.believed());
-        let mounts = ring().mounts;
-        let both = self.ranges[0].iter().zip(&self.ranges[1]);
-        let points = mounts.iter().zip(both).filter_map(|(mount, (now, before))| {
-            let range = now.max(*before);
-            (range < RANGE_M).then(|| mount * Point::new(range, 0.0))
-        });
-        let ways = points.filter_map(|it| {
-            let (near, aside) = track.find(pose * it, along, along + AHEAD_M);
-            let is_in_way = aside < radius - ASIDE_M && near.along > along + ASIDE_M;
-            is_in_way.then_some(near.along - along - radius)
-        });
-        ways.fold(RANGE_M, f64::min)
-    }
-}
-
-fn braking(rover: &Rover<'_>) -> Braking {
-    let drivetrain = rover.course().drivetrain();
-    let radius_m = drivetrain.footprint.radius();
-    Braking::new(Limits::of(drivetrain), radius_m, MARGIN_M, 0.1)
 }
 
 /// Returns the faults of a sonar that harms make.
@@ -355,6 +387,7 @@ fn sonar_faults(harms: &[Harmed], sonar: usize, now: Millis) -> Vec<Fault> {
             Harm::SonarFar if own => Some(Mode::Stuck(RANGE_M)),
             Harm::SonarNear if own => Some(Mode::Stuck(0.3)),
             Harm::SonarSilent => Some(Mode::DropOut(1.0)),
+            Harm::SonarsNoisy => Some(Mode::Noise(NOISY_M)),
             _ => None,
         }
     };

@@ -73,7 +73,7 @@ impl<'c> Mover<'c> {
             Ok(senses) => Self::Signal(Box::new(Sensing {
                 rover,
                 senses,
-                uses: Uses { modules: 0, is_led: false, moves: false },
+                uses: Uses::default(),
                 last: (MillimetresPerSecond(0), Millimetres(0)),
                 unheard: Millis(0),
             })),
@@ -230,7 +230,7 @@ impl Sensing<'_> {
     /// Goes on as commanded, no faster than ranges leave; without commands as the last one said,
     /// until the micro-controller stops the motors.
     fn go(&mut self, towards: MillimetresPerSecond, end: Millimetres, time: Millis) {
-        let (towards, end) = if self.senses.is_heard() {
+        let (told, end) = if self.senses.is_heard() {
             self.unheard = Millis(0);
             (MillimetresPerSecond(towards.0.min(self.senses.limit_mm_s())), end)
         } else {
@@ -239,8 +239,17 @@ impl Sensing<'_> {
             let (last, end) = self.last;
             (if stops { MillimetresPerSecond(0) } else { last }, end)
         };
-        self.last = (towards, end);
+        self.last = (told, end);
+        let is_cut = self.senses.is_cut();
+        if is_cut {
+            self.rover.stand();
+        }
+        let towards = match (is_cut, self.senses.runs_away() && !self.uses.is_halted) {
+            (true, _) => MillimetresPerSecond(0),
+            (false, true) => self.uses.fastest,
+            (false, false) => told,
+        };
         self.rover.go(towards, end, time);
-        self.senses.sense(&mut self.rover, self.uses, time);
+        self.senses.sense(&mut self.rover, self.uses, told, time);
     }
 }

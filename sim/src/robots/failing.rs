@@ -34,6 +34,9 @@ pub(crate) struct Failures {
     pub(crate) signals: Option<u64>,
 }
 
+/// The time for which a failure that is over by itself may still show itself.
+const SHOWS_AFTER: Millis = Millis(1_000);
+
 /// The demand on the motors in a period.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Demand {
@@ -124,12 +127,16 @@ impl Failures {
     /// Signals of the robot raise and lower flags; returns those that are raised, and the failures
     /// under way which they show: all that they speak of, or else the last one that harms a device
     /// and was not found, as what it is taken for.
-    pub(crate) fn sense(&mut self, robot: &Robot, up: u64) -> (u64, Vec<usize>) {
+    pub(crate) fn sense(&mut self, robot: &Robot, up: u64, now: Millis) -> (u64, Vec<usize>) {
         let new = up & !self.signals.replace(up).unwrap_or(0);
         let (mut seen, mut last) = (Vec::new(), None);
-        for (at, it) in self.all.iter().enumerate().filter(|it| !it.1.over && !it.1.found) {
+        for (at, it) in self.all.iter().enumerate().filter(|it| !it.1.found) {
             let row = robot.failures.get(it.number).filter(|it| it.harm.is_some());
             let Some(row) = row else { continue };
+            let ends = row.ends.map_or(it.since, |ends| Millis(it.since.0 + ends.0));
+            if it.over && now.0 > ends.0 + SHOWS_AFTER.0 {
+                continue;
+            }
             let own = row.flags.iter().chain(&row.sometimes);
             let own = own.fold(0_u64, |set, it| set | 1 << (it % 64));
             last = Some(at);

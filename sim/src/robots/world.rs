@@ -48,6 +48,8 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     pub(super) known: Parts,
     /// The failures that are known to have taken them.
     known_rows: BTreeSet<usize>,
+    /// The modules that were started anew in this period, a bit each.
+    restarted: u64,
     /// The place of the global supervisor, the objective, and since when it is under way.
     global: Global,
     pub(super) objective: usize,
@@ -159,6 +161,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             operator: Operator::new(&script.answers),
             known: Parts::NONE,
             known_rows: BTreeSet::new(),
+            restarted: 0,
             global: Global::Waits,
             objective: 0,
             objective_since: Millis(0),

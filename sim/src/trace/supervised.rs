@@ -163,6 +163,20 @@ impl Autonomy {
     }
 }
 
+/// The module status vector has changed (Durand et al., TAROS 2010, Section V.A.3): what is known to
+/// be lost, and the modules that do not work without it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Status {
+    /// When, in µs.
+    pub t_us: u64,
+    /// Position, in mm.
+    pub x_mm: u64,
+    /// The hardware and the modules that are known to be lost.
+    pub lost: Vec<String>,
+    /// The modules that need one of them, and do not work.
+    pub without: Vec<String>,
+}
+
 /// Other modules run from now on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Configured {

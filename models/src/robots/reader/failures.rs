@@ -1,6 +1,6 @@
 //! Reading the failures of a robot.
 
-use super::{Names, parts, words};
+use super::{Names, parts, signals, words};
 use crate::fmeca::thousandths;
 use crate::missions::reader::fields::Fields;
 use crate::missions::{Diagnostic, Spanned};
@@ -38,6 +38,7 @@ pub(super) fn failures(mut fields: Fields<'_>, names: &mut Names) -> Option<Vec<
         id: format!("{}.{}", row.id, names.modules.get(module).map_or("", |it| it)),
         loses: row.loses.union(Parts { hardware: 0, modules: 1 << module }),
         restarts: row.restarts.or(own.map(|it| Restarts { module, ..it })),
+        harm: row.harm.map(|it| signals::harm_of(it, module)),
         ..row.clone()
     };
     Some(each.into_iter().map(of).collect())
@@ -96,7 +97,7 @@ fn failure(
         let it = Diagnostic::new(fields.span_of("motion"), message, "nobody stops it");
         fields.report(it.help("call it `fatal` in both modes, or name another motion"));
     }
-    let harm = super::signals::harm(&mut fields);
+    let harm = signals::harm(&mut fields, names, has_each);
     let ends = fields.optional_integer("ends_ms", TIMES);
     let helped = fields.optional_flag("helped");
     let restarts = match fields.optional_table("restart") {

@@ -122,6 +122,11 @@ fn row(record: &Record, plans: &mut u64) -> Option<Row> {
             let words = format!("Runs: {runs}, mode {}", it.mode.name());
             Some(Row { mark: none(), words, lost: none() })
         }
+        Record::Status(it) => {
+            let all = |it: &[String]| if it.is_empty() { "nothing".into() } else { it.join(", ") };
+            let words = format!("Lost: {}; without it: {}", all(&it.lost), all(&it.without));
+            Some(Row { mark: none(), words, lost: none() })
+        }
         Record::Request(it) => {
             let words = format!("Operator asked: {}; {}", it.cause, it.reason);
             Some(Row { mark: "<b class=\"bad\">?</b>".into(), words, lost: none() })

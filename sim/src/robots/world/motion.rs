@@ -5,7 +5,7 @@ use crate::body::Moves;
 use crate::robots::failing::{Demand, mode};
 use cotama_core::player::Program;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Milliwatts};
-use cotama_models::robots::{Global, Mode, Parts, Where};
+use cotama_models::robots::{Global, Mode, Module, Parts, Role, Where, members};
 use cotama_senses::Uses;
 
 impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
@@ -40,7 +40,33 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let is_led = mode(self.robot, self.place) == Some(Mode::Operator);
         let moves = self.demand().speed.0 > 0;
         let harms: Vec<_> = self.failures.harms(self.robot).collect();
-        self.drive.prepare(Uses { modules, is_led, moves }, &harms);
+        let uses = Uses {
+            modules,
+            is_led,
+            moves,
+            fastest: self.body.speed_max,
+            is_halted: self.level().is_halted(),
+            restarted: std::mem::take(&mut self.restarted),
+            particles: self.particles(),
+        };
+        self.drive.prepare(uses, &harms);
+    }
+
+    /// Returns the most particles that settings leave to localisation.
+    fn particles(&self) -> u64 {
+        let holding = self.decider.adapted().holding(self.tables(), self.now);
+        let reports = &self.robot.losses.reports;
+        let sets = members(holding).filter_map(|it| reports.get(it)?.sets.as_ref());
+        let values = sets.flat_map(|it| &it.values);
+        let particles = values.filter(|it| {
+            let module = self.robot.modules.get(it.module);
+            let named = |it: &Module, at: usize| {
+                it.parameters.get(at).is_some_and(|it| it.name == "particles")
+            };
+            module
+                .is_some_and(|of| of.roles.contains(&Role::Localisation) && named(of, it.parameter))
+        });
+        particles.map(|it| it.value).min().unwrap_or(u64::MAX)
     }
 
     /// Returns what is demanded of the motors: the pace of what runs while it has a permit.

@@ -23,9 +23,9 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let unmasked = self.decider.unmasked(self.now);
         self.failures.unmask(self.tables(), unmasked);
         let mut seen = self.failures.look(self.robot, self.place);
-        let tables = self.tables();
+        let (tables, now) = (self.tables(), self.now);
         let (new, shown) = match self.drive.flags() {
-            Some(up) => self.failures.sense(self.robot, up),
+            Some(up) => self.failures.sense(self.robot, up, now),
             None => (0, Vec::new()),
         };
         seen.extend(shown);

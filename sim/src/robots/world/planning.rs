@@ -19,6 +19,9 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let before = self.known;
         self.known = before.union(row.loses);
         self.known_rows.insert(failure);
+        if self.known != before {
+            self.record_status(recording);
+        }
         // A fatal failure ends the mission: nothing is left to plan.
         let mode = mode(self.robot, self.place).unwrap_or(Mode::Autonomous);
         let is_fatal = row.severity(mode) == Severity::Fatal;
@@ -43,6 +46,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             .iter()
             .filter_map(|it| self.robot.failures.get(*it))
             .fold(Parts::NONE, |all, it| all.union(it.loses));
+        self.record_status(recording);
         // Only a plan that was made without it can be better with it.
         let was_without = self.planning.made.iter().any(|it| match it.cause {
             PlanCause::Failure(it) => rows.contains(&it),

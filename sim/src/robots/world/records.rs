@@ -4,7 +4,7 @@ use super::World;
 use crate::record::Recorder;
 use crate::run::Reason;
 use crate::trace::supervised::{
-    Autonomy, Configured, Decision, Diagnosis, Exposure, Failure, Fired, Told,
+    Autonomy, Configured, Decision, Diagnosis, Exposure, Failure, Fired, Status, Told,
 };
 use crate::trace::{Activity, End, Pose, Record, Request, Sample};
 use cotama_core::net::TransitionId;
@@ -12,7 +12,7 @@ use cotama_core::player::Program;
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
 use cotama_models::level::Cause;
-use cotama_models::robots::{self, Mode, Where};
+use cotama_models::robots::{self, Mode, Where, members};
 use cotama_models::severity::Class;
 
 /// The recorder, and how much of a run it has.
@@ -209,6 +209,21 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             _ => Autonomy::Autonomous,
         };
         to.put(|| Record::Configuration(Configured { t_us, x_mm, configuration, mode }));
+    }
+
+    /// Records what is known to be lost, and what does not work without it.
+    pub(super) fn record_status<R: Recorder>(&self, to: &mut Recording<'_, R>) {
+        let (t_us, x_mm) = self.here();
+        let known = self.known;
+        let works = self.robot.available(known);
+        let modules = self.robot.modules.iter().enumerate();
+        let hardware = members(known.hardware).filter_map(|it| self.robot.hardware.get(it));
+        let is_lost = |it: usize| known.modules >> it & 1 == 1;
+        let rest = modules.clone().filter(|(it, _)| works >> it & 1 == 0 && !is_lost(*it));
+        let without = rest.map(|it| it.1.name.clone()).collect();
+        let modules = modules.filter(|it| is_lost(it.0)).map(|it| it.1.name.clone());
+        let lost = hardware.map(|it| it.name.clone()).chain(modules).collect();
+        to.put(|| Record::Status(Status { t_us, x_mm, lost, without }));
     }
 
     /// Records the plan that was made now.

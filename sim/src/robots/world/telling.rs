@@ -176,6 +176,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         }
         if let Some(module) = restart {
             self.failures.restart(self.robot, module);
+            self.restarted |= 1 << module;
         }
         if let Some(report) = sets {
             self.set(report);
