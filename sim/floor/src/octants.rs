@@ -136,6 +136,14 @@ impl Octants {
     /// Begins a ray at a point in cells, inside; from outside see [`entry`](Self::entry).
     #[inline]
     pub(crate) fn walk(&self, from: Point, along: Vector) -> Walk {
+        let mut it = self.begin(from, along);
+        it.side = self.side(it.place());
+        it
+    }
+
+    /// Begins a ray, but does not look at the cell where it begins.
+    #[inline]
+    pub(crate) fn begin(&self, from: Point, along: Vector) -> Walk {
         let (width, height) = (self.width as u32, self.height as u32);
         let (left, down) = (along.x < 0.0, along.y < 0.0);
         let x = if left { f64::from(width) - from.x } else { from.x };
@@ -148,7 +156,7 @@ impl Octants {
         let (x, y) = (from[one], from[two]);
         let (along_x, along_y) = (along[one], along[two]);
         let case = u32::from(left) * LEFT + u32::from(down) * DOWN + u32::from(steep) * STEEP;
-        let mut it = Walk {
+        Walk {
             from: [x, y],
             biased: [x + BIAS, y + BIAS],
             along: [along_x, along_y],
@@ -159,53 +167,38 @@ impl Octants {
             stride: [width, height][one] + 1,
             side: 0,
             case: case as u8,
-        };
-        it.side = self.side(&it);
-        it
+        }
     }
 
-    /// Returns the length of the empty rectangle that begins in the cell of a walk, or what is
+    /// Returns the length of the empty rectangle that begins at a place of the tables, or what is
     /// there.
     #[inline]
-    fn side(&self, walk: &Walk) -> u8 {
-        let (x, y) = (walk.cell as u32, (walk.cell >> 32) as u32);
-        let at = (walk.table + y * walk.stride) as usize + x as usize;
-        self.tables.get(at).copied().unwrap_or(OUTSIDE)
+    fn side(&self, place: u32) -> u8 {
+        self.tables.get(place as usize).copied().unwrap_or(OUTSIDE)
     }
 
-    /// Goes through the empty rectangle of a walk to the cell behind it. At a corner it is the cell
-    /// above, as its table is turned.
+    /// Looks at many places of the tables.
     ///
-    /// Nothing branches, as a processor guesses no better than a coin which side a ray leaves by.
+    /// Nothing else is done between one and the next, so that the processor waits for all of them
+    /// together where they are far in memory.
+    #[inline]
+    pub(crate) fn sides(&self, places: &[u32], out: &mut [u8]) {
+        for (place, out) in places.iter().zip(out) {
+            *out = self.side(*place);
+        }
+    }
+
+    /// Goes through the empty rectangle of a walk to the cell behind it, and looks at it.
     #[inline]
     pub(crate) fn step(&self, walk: &mut Walk) {
-        self.step_by(walk, SHAPES[walk.side as usize]);
+        walk.go();
+        walk.side = self.side(walk.place());
     }
 
-    /// Goes to the next cell, whatever is in this one.
+    /// Goes to the next cell, whatever is in this one, and looks at it.
     pub(crate) fn step_one(&self, walk: &mut Walk) {
-        self.step_by(walk, SHAPES[1]);
-    }
-
-    #[inline]
-    fn step_by(&self, walk: &mut Walk, shape: u64) {
-        let cell = walk.cell;
-        let end = cell + shape;
-        let end_x = f64::from((end as u32).cast_signed());
-        let end_y = f64::from(((end >> 32) as u32).cast_signed());
-        // No error is carried on from step to step.
-        let to_x = (end_x - walk.from[0]) * walk.inverse[0];
-        let to_y = (end_y - walk.from[1]) * walk.inverse[1];
-        let distance = if to_x < to_y { to_x } else { to_y };
-        // Whether it leaves over the side of a column.
-        let is_aside = to_x < to_y;
-        let x = whole(walk.biased[0] + distance * walk.along[0]).max(cell & COLUMN);
-        let y = whole(walk.biased[1] + distance * walk.along[1]).max(cell >> 32);
-        let x = if is_aside { end & COLUMN } else { x };
-        let y = if is_aside { y } else { end >> 32 };
-        walk.cell = x | y << 32;
-        walk.distance = distance;
-        walk.side = self.side(walk);
+        walk.go_by(SHAPES[1]);
+        walk.side = self.side(walk.place());
     }
 
     /// Returns the cell of a walk, turned back; `None` outside.
@@ -229,6 +222,12 @@ fn whole(biased: f64) -> u64 {
     biased.to_bits() >> FRACTION & 0xFFFF
 }
 
+/// Whether a cell is empty, by what is noted of it.
+#[inline]
+pub(crate) fn is_open(side: u8) -> bool {
+    side.wrapping_add(1) > 1
+}
+
 /// A ray on its way, in cells, turned so that it goes to the right and less far up.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Walk {
@@ -244,15 +243,51 @@ pub(crate) struct Walk {
     table: u32,
     stride: u32,
     /// The length of the empty rectangle that begins here; 0 where something is.
-    side: u8,
+    pub(crate) side: u8,
     case: u8,
 }
 
 impl Walk {
+    /// Returns the place of its cell in the tables.
+    #[inline]
+    pub(crate) fn place(&self) -> u32 {
+        let (x, y) = (self.cell as u32, (self.cell >> 32) as u32);
+        self.table + y * self.stride + x
+    }
+
+    /// Goes through its empty rectangle to the cell behind it, but does not look at that. At a
+    /// corner it is the cell above, as its table is turned.
+    ///
+    /// Nothing branches, as a processor guesses no better than a coin which side a ray leaves by.
+    #[inline]
+    pub(crate) fn go(&mut self) {
+        self.go_by(SHAPES[self.side as usize]);
+    }
+
+    #[inline]
+    fn go_by(&mut self, shape: u64) {
+        let cell = self.cell;
+        let end = cell + shape;
+        let end_x = f64::from((end as u32).cast_signed());
+        let end_y = f64::from(((end >> 32) as u32).cast_signed());
+        // No error is carried on from step to step.
+        let to_x = (end_x - self.from[0]) * self.inverse[0];
+        let to_y = (end_y - self.from[1]) * self.inverse[1];
+        let distance = if to_x < to_y { to_x } else { to_y };
+        // Whether it leaves over the side of a column.
+        let is_aside = to_x < to_y;
+        let x = whole(self.biased[0] + distance * self.along[0]).max(cell & COLUMN);
+        let y = whole(self.biased[1] + distance * self.along[1]).max(cell >> 32);
+        let x = if is_aside { end & COLUMN } else { x };
+        let y = if is_aside { y } else { end >> 32 };
+        self.cell = x | y << 32;
+        self.distance = distance;
+    }
+
     /// Whether its cell is empty.
     #[inline]
     pub(crate) fn is_open(&self) -> bool {
-        self.side.wrapping_add(1) > 1
+        is_open(self.side)
     }
 
     /// Whether something is in its cell.
