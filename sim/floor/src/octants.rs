@@ -47,6 +47,9 @@ pub(crate) struct Octants {
     /// One table behind the other, each with a column to the right and a row above that are
     /// outside.
     tables: Vec<u8>,
+    /// For each case the number of the cell that its table begins with, and the steps from it to
+    /// the next in its row and in its column, modulo 2³².
+    turns: [[u32; 3]; 8],
 }
 
 /// A case: a bit for rays to the left, one for rays down, one for those that are steeper than 45°.
@@ -58,8 +61,15 @@ impl Octants {
     /// Makes the tables; `is_empty` says it of a column and a row.
     pub(crate) fn of(width: usize, height: usize, is_empty: impl Fn(usize, usize) -> bool) -> Self {
         let size = (width + 1) * (height + 1);
-        let mut it = Self { width, height, tables: vec![OUTSIDE; 8 * size] };
+        let mut it = Self { width, height, tables: vec![OUTSIDE; 8 * size], turns: [[0; 3]; 8] };
         for case in 0..8 {
+            let number = |x, y| {
+                let (column, row) = it.turned_back(case, x, y);
+                (row.wrapping_mul(width)).wrapping_add(column) as u32
+            };
+            let first = number(0, 0);
+            let to = |next: u32| next.wrapping_sub(first);
+            it.turns[case as usize] = [first, to(number(1, 0)), to(number(0, 1))];
             let (columns, rows) = if case & STEEP == 0 { (width, height) } else { (height, width) };
             let stride = columns + 1;
             for y in (0..rows).rev() {
@@ -92,8 +102,8 @@ impl Octants {
     /// Turns a cell of a table back.
     fn turned_back(&self, case: u32, x: usize, y: usize) -> (usize, usize) {
         let (x, y) = if case & STEEP == 0 { (x, y) } else { (y, x) };
-        let column = if case & LEFT == 0 { x } else { self.width - 1 - x };
-        (column, if case & DOWN == 0 { y } else { self.height - 1 - y })
+        let column = if case & LEFT == 0 { x } else { (self.width - 1).wrapping_sub(x) };
+        (column, if case & DOWN == 0 { y } else { (self.height - 1).wrapping_sub(y) })
     }
 
     /// Returns how many cells around a cell, in each way, are empty with it: 0 if it is not.
@@ -197,22 +207,18 @@ impl Octants {
 
     /// Goes to the next cell, whatever is in this one, and looks at it.
     pub(crate) fn step_one(&self, walk: &mut Walk) {
-        walk.go_by(SHAPES[1]);
+        walk.go_one();
         walk.side = self.side(walk.place());
     }
 
-    /// Returns the cell of a walk, turned back; `None` outside.
+    /// Returns the number of the cell of a walk, which is inside: row by row from the lowest.
     #[inline]
-    pub(crate) fn cell(&self, walk: &Walk) -> Option<(usize, usize)> {
-        let (x, y) = (walk.cell as u32 as usize, (walk.cell >> 32) as usize);
-        let case = u32::from(walk.case);
-        let steep = case & STEEP != 0;
-        let (columns, rows) =
-            if steep { (self.height, self.width) } else { (self.width, self.height) };
-        if x >= columns || y >= rows {
-            return None;
-        }
-        Some(self.turned_back(case, x, y))
+    pub(crate) fn cell(&self, walk: &Walk) -> usize {
+        let (x, y) = (walk.cell as u32, (walk.cell >> 32) as u32);
+        let [first, by_x, by_y] = self.turns[usize::from(walk.case % 8)];
+        // Modulo 2³²: a step to the left is a large one to the right.
+        let at = first.wrapping_add(x.wrapping_mul(by_x)).wrapping_add(y.wrapping_mul(by_y));
+        at as usize
     }
 }
 
@@ -262,6 +268,12 @@ impl Walk {
     #[inline]
     pub(crate) fn go(&mut self) {
         self.go_by(SHAPES[self.side as usize]);
+    }
+
+    /// Goes to the next cell, whatever is in this one, but does not look at that.
+    #[inline]
+    pub(crate) fn go_one(&mut self) {
+        self.go_by(SHAPES[1]);
     }
 
     #[inline]

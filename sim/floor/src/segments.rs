@@ -121,10 +121,10 @@ impl Segments {
         if let Some(bad) = all.iter().position(|it| !is_good(it)) {
             return Err(SegmentsError::Segment(bad));
         }
-        let (cell, columns, rows) = cover::cells(&bounds);
+        let (cell, columns, rows) = cover::cells(&bounds, all.len());
         // A cell around all, so that what stands on the border is inside.
         let origin = bounds.least - Vector::repeat(cell);
-        let cover = Cover::of(&all, origin, cell, columns, rows).ok_or(SegmentsError::Crowded)?;
+        let cover = Cover::new(&all, origin, cell, columns, rows).ok_or(SegmentsError::Crowded)?;
         let octants = Octants::of(columns, rows, |x, y| cover.at(x, y).is_empty());
         let with_bounds = |it: &(&[Point], Kind)| Some((Bounds::around(it.0)?, it.0.to_vec()));
         let solids = solids.iter().filter_map(with_bounds).collect();
@@ -140,54 +140,52 @@ impl Segments {
         self.solids.iter().any(|(around, corners)| around.holds(at) && is_inside(corners, at))
     }
 
-    /// Looks at the stretches in the cell of a walk: returns the nearest that is nearer than
-    /// `best`, and then writes how far it is.
+    /// Looks at the stretches in the cell of a walk: returns how far the nearest is that is nearer
+    /// than `best`, else that, and its number in the cell.
     #[inline]
-    fn nearest_here(
-        &self,
-        walk: &Walk,
-        ray: &Ray,
-        sense: Sense,
-        best: &mut f64,
-    ) -> Option<&Segment> {
-        let (x, y) = self.octants.cell(walk)?;
-        let mut nearest = None;
-        for segment in self.cover.at(x, y) {
-            if !segment.kind.is_seen_by(sense) {
-                continue;
-            }
-            if let Some(distance) = meets(ray, segment).filter(|it| *it < *best) {
-                *best = distance;
-                nearest = Some(segment);
-            }
+    fn nearest_here(&self, walk: &Walk, ray: &Ray, sense: Sense, mut best: f64) -> (f64, usize) {
+        let (mut nearest, looks_through) = (usize::MAX, sense == Sense::Light);
+        for (at, segment) in self.cover.of(self.octants.cell(walk)).iter().enumerate() {
+            let is_through = looks_through & segment.kind.is_glass();
+            let distance = meets(ray, segment) + NO_OR_FAR[usize::from(is_through)];
+            nearest = if distance < best { at } else { nearest };
+            best = if distance < best { distance } else { best };
         }
-        nearest
+        (best, nearest)
     }
 }
 
-/// Returns how far a ray goes before it meets a stretch.
+/// Lengths that are added to a distance. Which rays hit is hard to foresee for a processor: to add
+/// by place takes no branch.
+const NO_OR_FAR: [f64; 2] = [0.0, f64::INFINITY];
+
+/// Returns how far a ray goes before it meets a stretch; infinity, or no number, if it does not.
 #[inline]
-fn meets(ray: &Ray, segment: &Segment) -> Option<f64> {
+#[allow(clippy::needless_bitwise_bool, reason = "a lazy operator branches")]
+fn meets(ray: &Ray, segment: &Segment) -> f64 {
     let (a, b) = (segment.from - ray.from, segment.to - ray.from);
     // The sides of the ends.
     let (side_a, side_b) = (cross(ray.along, a), cross(ray.along, b));
-    if side_a.min(side_b) > 0.0 || side_a.max(side_b) < 0.0 {
-        return None;
-    }
     let (ahead_a, ahead_b) = (ray.along.dot(&a), ray.along.dot(&b));
     let span = side_b - side_a;
-    let distance = if span == 0.0 {
-        // Along the ray: it begins on the stretch, or meets the nearer end.
-        if ahead_a.min(ahead_b) <= 0.0 && ahead_a.max(ahead_b) >= 0.0 {
-            0.0
-        } else {
-            ahead_a.min(ahead_b)
-        }
-    } else {
-        // Between the two ends, each with a weight from 0 to 1.
-        ahead_a * (side_b / span) + ahead_b * (-side_a / span)
-    };
-    (distance >= 0.0).then_some(distance)
+    if span == 0.0 {
+        return if side_a == 0.0 { meets_along(ahead_a, ahead_b) } else { f64::INFINITY };
+    }
+    // Between the two ends, each with a weight from 0 to 1.
+    let distance = ahead_a * (side_b / span) + ahead_b * (-side_a / span);
+    let is_beside = ((side_a > 0.0) & (side_b > 0.0)) | ((side_a < 0.0) & (side_b < 0.0));
+    distance + NO_OR_FAR[usize::from(is_beside | (distance < 0.0))]
+}
+
+/// Returns how far a ray goes that goes along a stretch, by how far ahead its ends are: it begins
+/// on the stretch, or meets the nearer end.
+fn meets_along(a: f64, b: f64) -> f64 {
+    let (near, far) = (a.min(b), a.max(b));
+    match (near > 0.0, far < 0.0) {
+        (true, _) => near,
+        (_, true) => f64::INFINITY,
+        _ => 0.0,
+    }
 }
 
 impl Surface for Segments {
@@ -211,7 +209,11 @@ impl Surface for Segments {
             if !walk.has_hit() {
                 break;
             }
-            nearest = self.nearest_here(&walk, ray, sense, &mut best).or(nearest);
+            let (distance, at) = self.nearest_here(&walk, ray, sense, best);
+            if distance < best {
+                best = distance;
+                nearest = self.cover.of(self.octants.cell(&walk)).get(at);
+            }
             most = most.min(best * self.per_metre);
             self.octants.step_one(&mut walk);
         }

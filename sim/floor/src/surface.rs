@@ -29,7 +29,12 @@ pub enum Kind {
 impl Kind {
     /// Whether a sense notices it.
     pub fn is_seen_by(self, sense: Sense) -> bool {
-        sense == Sense::Sound || !matches!(self, Self::Glass | Self::GlassDoor)
+        sense == Sense::Sound || !self.is_glass()
+    }
+
+    /// Whether light goes through it.
+    pub(crate) fn is_glass(self) -> bool {
+        matches!(self, Self::Glass | Self::GlassDoor)
     }
 }
 

@@ -5,8 +5,10 @@ use crate::geometry::{Bounds, Point, Vector, crosses_box, distance_to};
 use crate::octants::Octants;
 use crate::surface::Sense;
 
-/// About so many cells.
-const CELLS: f64 = 65_536.0;
+/// About so many cells for each stretch, within these bounds: with more, tables do not stay in the
+/// caches; with fewer, a cell has more than a stretch or two to look at.
+const EACH: f64 = 128.0;
+const CELLS: [f64; 2] = [16_384.0, 65_536.0];
 /// The smallest cell, in metres.
 const SMALLEST: f64 = 0.05;
 /// A stretch belongs to a cell that it misses by so much, in metres: rays are rounded by less.
@@ -15,9 +17,10 @@ const MARGIN: f64 = 1e-6;
 pub(super) const MOST: usize = 1 << 21;
 
 /// Returns the side of a cell, and the columns and rows with one around.
-pub(super) fn cells(bounds: &Bounds) -> (f64, usize, usize) {
+pub(super) fn cells(bounds: &Bounds, stretches: usize) -> (f64, usize, usize) {
     let (width, height) = (bounds.width(), bounds.height());
-    let cell = (width * height / CELLS).sqrt().max(SMALLEST).max(width.max(height) / 16_384.0);
+    let cells = (EACH * stretches as f64).clamp(CELLS[0], CELLS[1]);
+    let cell = (width * height / cells).sqrt().max(SMALLEST).max(width.max(height) / 16_384.0);
     let count = |size: f64| (size / cell) as usize + 3;
     (cell, count(width), count(height))
 }
@@ -47,7 +50,7 @@ pub(super) struct Cover {
 
 impl Cover {
     /// Makes the lists; `None` if they have more than [`MOST`] entries together.
-    pub(super) fn of(
+    pub(super) fn new(
         segments: &[Segment],
         origin: Point,
         cell: f64,
@@ -95,12 +98,17 @@ impl Cover {
         &self.segments
     }
 
-    /// The stretches of a cell.
+    /// The stretches of a cell, by column and row.
     #[inline]
     pub(super) fn at(&self, x: usize, y: usize) -> &[Segment] {
-        let at = y * self.columns + x;
+        self.of(y * self.columns + x)
+    }
+
+    /// The stretches of a cell, by its number: row by row from the lowest.
+    #[inline]
+    pub(super) fn of(&self, cell: usize) -> &[Segment] {
         let start = |at: usize| self.starts.get(at).copied().unwrap_or(0) as usize;
-        let (from, to) = (start(at), start(at + 1));
+        let (from, to) = (start(cell), start(cell + 1));
         self.items.get(from..to).unwrap_or_default()
     }
 
