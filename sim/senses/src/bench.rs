@@ -2,7 +2,8 @@
 
 use crate::sonars::{RANGE_M, ring, short};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
-use cotama_devices::{Ring, Scene, SettingsError, Streams};
+use cotama_devices::{MAX_ACCESS_POINTS, Ring, Scene, SettingsError, Streams};
+use cotama_floor::{Bounds, Point, Surface, Vector};
 use cotama_localisation::{Chart, Model, Parameters, Sensor};
 use cotama_models::robots::Body;
 use cotama_observers::{Jumps, SonarSurvey, Survey, Tail};
@@ -18,6 +19,8 @@ pub struct Bench {
     pub(crate) behind: Tail,
     pub(crate) waits: Tail,
     pub(crate) jumps: Tail,
+    /// The access points of the link to the operator.
+    pub(crate) access: Vec<Point>,
 }
 
 /// Why a robot has no senses.
@@ -51,6 +54,8 @@ const CELL_M: f64 = 0.1;
 /// Spells at the largest range, and at a short one, that a survey notes, in metres of way.
 const FAR_BEYOND_M: f64 = 0.25;
 const NEAR_BEYOND_M: f64 = 0.3;
+/// The most of a tile of the floor that one access point serves, in metres.
+const TILE_M: f64 = 10.0;
 /// The longest survey.
 const JUMPY_BEYOND_S: f64 = 0.2;
 const LONGEST: Millis = Millis(3_600_000);
@@ -113,6 +118,25 @@ impl Bench {
         waits.watch(rover.now());
         jumps.watch(rover.now());
         let (behind, waits, jumps) = (behind.tail()?, waits.tail()?, jumps.tail()?);
-        Ok(Self { chart, far, near, behind, waits, jumps })
+        let access = access_points(&course.surface().bounds());
+        Ok(Self { chart, far, near, behind, waits, jumps, access })
     }
+}
+
+/// Returns the access points of a floor, as none says where they are: one in the middle of each of
+/// equal tiles of at most 10 m, or of more where that were too many (assumed).
+fn access_points(floor: &Bounds) -> Vec<Point> {
+    let size = floor.most - floor.least;
+    let mut tile = TILE_M;
+    let count = |tile: f64| size.map(|it| (it / tile).ceil().max(1.0) as usize);
+    while count(tile).product() > MAX_ACCESS_POINTS {
+        tile *= 2.0;
+    }
+    let [columns, rows] = count(tile).into();
+    let place = |column: usize, row: usize| {
+        let part = |at: usize, of: usize| (at as f64 + 0.5) / of as f64;
+        let parts = Vector::new(part(column, columns), part(row, rows));
+        floor.least + size.component_mul(&parts)
+    };
+    (0..columns).flat_map(|column| (0..rows).map(move |row| place(column, row))).collect()
 }

@@ -120,13 +120,10 @@ impl<'b> Senses<'b> {
         let streams = Streams::new(seed);
         let base = Base::new(rover.course().drivetrain(), streams.stream("base"));
         let observing = Observing::new(robot, bench, &base)?;
-        // No floor says where access points are: one in the middle (assumed).
-        let bounds = cotama_floor::Surface::bounds(rover.course().surface());
-        let middle = nalgebra::center(&bounds.least, &bounds.most);
         let mut it = Self {
             robot,
             ring: Ring::new(&ring(), &streams, "sonar")?,
-            link: Link::new(&LinkSettings::wifi(), &[middle], &streams, "link")?,
+            link: Link::new(&LinkSettings::wifi(), &bench.access, &streams, "link")?,
             localiser: Localiser::new(&bench.chart, &streams, "localisation"),
             base,
             observing,
