@@ -9,6 +9,7 @@
 //! | [`Ring`] | a range of each sonar | cones, banks, incidence, cross talk; glass is seen |
 //! | [`Laser`] | the ranges of a scan | field of view; looks through glass |
 //! | [`Camera`] | QR marks: distance, bearing | field of view, walls, angle, size, speed |
+//! | [`Gyro`] | the turn of the robot | a bias that is drawn |
 //! | [`Link`] | the level of the best access point | distance, walls |
 //!
 //! Each has a rate, a latency and noise, and carries [`Faults`], which change its readings.
@@ -72,6 +73,7 @@
 mod camera;
 mod fault;
 mod faults;
+mod gyro;
 mod laser;
 mod link;
 mod people;
@@ -86,6 +88,7 @@ pub use camera::{Camera, CameraSettings, MAX_MARKS, QrMark, Sighting};
 pub use cotama_streams::{Stream, Streams};
 pub use fault::{Effect, Fault, Intermittent, Mode, Phase};
 pub use faults::{Faults, MAX_FAULTS};
+pub use gyro::{Gyro, GyroSettings};
 pub use laser::{Laser, LaserSettings, MAX_RAYS};
 pub use link::{Link, LinkSettings, MAX_ACCESS_POINTS};
 pub use people::{Habits, MAX_PEOPLE, People, STEP};

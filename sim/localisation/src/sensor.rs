@@ -59,14 +59,28 @@ impl Sensor {
         rays: usize,
         range_m: f64,
     ) -> Result<Self, SensorError> {
-        within("the number of rays", rays as f64, 1.0, MAX_BEAMS as f64)?;
-        within("the field of view in radians", view_rad, 0.0, TAU)?;
-        let gaps = if view_rad < TAU { rays.saturating_sub(1).max(1) } else { rays };
-        let angle = |at: usize| {
-            let twice = 2.0 * at as f64 - rays.saturating_sub(1) as f64;
-            view_rad * twice / (2.0 * gaps as f64)
-        };
-        let mounts = (0..rays).map(|at| mount * Pose::rotation(angle(at))).collect();
+        Self::lasers(&[(*mount, view_rad, rays)], range_m)
+    }
+
+    /// Several lasers as one: each with its mount, field of view and rays, as for
+    /// [`laser`](Self::laser). A reading has the ranges of the first one, then those of the second,
+    /// and so on; nothing beyond `range_m` is seen by any of them.
+    ///
+    /// # Errors
+    /// Numbers that are out of range.
+    pub fn lasers(all: &[(Pose, f64, usize)], range_m: f64) -> Result<Self, SensorError> {
+        let beams: usize = all.iter().map(|it| it.2).sum();
+        within("the number of rays", beams as f64, 1.0, MAX_BEAMS as f64)?;
+        let mut mounts = Vec::with_capacity(beams);
+        for &(mount, view_rad, rays) in all {
+            within("the field of view in radians", view_rad, 0.0, TAU)?;
+            let gaps = if view_rad < TAU { rays.saturating_sub(1).max(1) } else { rays };
+            let angle = |at: usize| {
+                let twice = 2.0 * at as f64 - rays.saturating_sub(1) as f64;
+                view_rad * twice / (2.0 * gaps as f64)
+            };
+            mounts.extend((0..rays).map(|at| mount * Pose::rotation(angle(at))));
+        }
         Self { mounts, across: vec![0.0], range_m, sense: Sense::Light }.checked()
     }
 
@@ -151,6 +165,8 @@ mod tests {
         let laser = Sensor::laser(&Pose::identity(), PI, 3, 8.0).unwrap();
         let angle = |at: usize| laser.ray(at, 0).unwrap().rotation.angle();
         assert_eq!([0, 1, 2].map(angle), [-PI / 2.0, 0.0, PI / 2.0]);
+        let back = Sensor::lasers(&[(Pose::identity(), PI, 2), (Pose::rotation(PI), PI, 3)], 8.0);
+        assert_eq!(back.unwrap().ray(3, 0).unwrap().rotation.angle().abs(), PI);
         let refused = Sensor::laser(&Pose::identity(), PI, 0, 8.0).unwrap_err();
         assert_eq!(refused.to_string(), "the number of rays is 0; give a number from 1 to 16384");
     }

@@ -13,6 +13,8 @@
 //! | [`Interval`] | a value | a normal error about a value that is inside |
 //! | [`FarSonars`] | ranges, way | the tail of ways at the largest range, surveyed |
 //! | [`Apart`] | odometry, localisation | errors of odometry grow as √way; covariances |
+//! | [`Turns`] | gyro, encoders | errors of odometry; bias and noise |
+//! | [`Lasting`] | a condition | the tail of times for which it holds |
 //! | [`Spread`] | covariance | worked out of k independent particles |
 //! | [`Backward`] | place on the path | the tail of times behind |
 //! | [`Progress`] | place on the path | the tail of waits |
@@ -35,6 +37,8 @@
 //! | [`Backward`], [`Progress`] | u + m ln(b / λ) seconds | VI.A.2; Pickands 1975 |
 //! | [`Apart`] | χ²₃(p) of Mahalanobis | VI.A.2; Siegwart et al., 5.2.4 |
 //! | [`Spread`] | σ² χ²ₖ₋₁(p/3) / (k - 1) | IV.B.3; variance of a sample |
+//! | [`Lasting`] | u + m ln(b / λ) seconds | IV.B.3; Pickands 1975 |
+//! | [`Turns`] | z(p/2) √(β² W² + σ² T W + d² s + t² φ) | IV.B.3; sum of normal errors |
 //! | [`Convergence`] | z(p/2) σ √(1 + ρ²), with ρ = exp(-T/τ) | IV.B.3 |
 //! | [`Coherence`] | χ²₂(p) of mean errors | IV.B.3 |
 //! | [`WheelObserver`] | odds of any fault ρ / p, k in a row | IV.B.3; Pollak 1985 |
@@ -121,6 +125,7 @@
 
 mod body;
 mod flag;
+mod lasting;
 mod link;
 #[cfg(test)]
 mod measured;
@@ -137,10 +142,12 @@ mod sonars;
 mod spell;
 mod status;
 mod timing;
+mod turn;
 mod wheels;
 
 pub use body::{Battery, Braking, Bumper, Contact, Stall, Supply};
 pub use flag::Flag;
+pub use lasting::{Lasting, LastingSurvey};
 pub use link::{LinkLevel, MAX_LEVELS};
 pub use outliers::{Frozen, Jumps, Outliers};
 pub use path::{Backward, Coherence, Convergence, Motion, OnPath, Progress};
@@ -154,6 +161,7 @@ pub use sonars::{FarSonars, SonarSurvey};
 pub use spell::{Survey, Tail};
 pub use status::{Item, Items, MAX_ITEMS, Needs, Status, StatusEvent, StatusVector};
 pub use timing::{Age, Deadlines, Interval, Job};
+pub use turn::{Turn, Turns};
 pub use wheels::{
     Bank, Diagnosis, MODES, Mode, Side, WheelObserver, WheelRates, WheelSettings, Wheels,
 };

@@ -45,7 +45,7 @@ impl OdometryErrors {
         Self { way: 0.01, drift: 0.01, turn: 0.03 }
     }
 
-    fn check(&self) -> Result<(), SettingsError> {
+    pub(crate) fn check(&self) -> Result<(), SettingsError> {
         within("the error of the way in m per √m", self.way, 1e-6, 10.0)?;
         within("the error of the heading in rad per √m", self.drift, 1e-6, 10.0)?;
         within("the error of the heading in rad per √rad", self.turn, 1e-6, 10.0)

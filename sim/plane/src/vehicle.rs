@@ -65,6 +65,8 @@ pub struct Step {
 pub struct Vehicle {
     pose: Pose,
     now: Command,
+    /// How fast it turned at last, which slip makes other than it was told.
+    turns: f64,
     /// The angles of the wheels that the encoders have counted, left and right.
     wheels: [f64; 2],
     /// How far the centre can still go before anything is so near that it could touch it.
@@ -80,7 +82,14 @@ const NEAR: f64 = 0.005;
 impl Vehicle {
     /// A robot that stands at a pose.
     pub fn new(pose: Pose) -> Self {
-        Self { pose, now: Command::default(), wheels: [0.0; 2], room: 0.0, touches: false }
+        Self {
+            pose,
+            now: Command::default(),
+            turns: 0.0,
+            wheels: [0.0; 2],
+            room: 0.0,
+            touches: false,
+        }
     }
 
     /// Returns the position and the heading.
@@ -91,6 +100,11 @@ impl Vehicle {
     /// Returns the speeds.
     pub const fn speeds(&self) -> Command {
         self.now
+    }
+
+    /// Returns how fast it turned at last, in rad/s to the left: a gyro reads this.
+    pub const fn turns(&self) -> f64 {
+        self.turns
     }
 
     /// Whether it moved against something in its last step.
@@ -107,6 +121,7 @@ impl Vehicle {
     /// Stands at once.
     pub fn stand(&mut self) {
         self.now = Command::default();
+        self.turns = 0.0;
     }
 
     /// Goes on for a time in seconds: speeds change evenly to those that are told, as fast as the
@@ -147,6 +162,7 @@ impl Vehicle {
             turn: f64::midpoint(before.turn, self.now.turn),
         };
         self.touches = false;
+        self.turns = 0.0;
         if mean == Command::default() || time <= 0.0 {
             return Step::default();
         }
@@ -161,7 +177,9 @@ impl Vehicle {
         let [left, right, between] = drivetrain.real;
         let ways = [angles[0] * wheel * left * grips[0], angles[1] * wheel * right * grips[1]];
         let way = f64::midpoint(ways[0], ways[1]);
-        let part = self.go(drivetrain, surface, way, (ways[1] - ways[0]) / (axle * between));
+        let turned = (ways[1] - ways[0]) / (axle * between);
+        let part = self.go(drivetrain, surface, way, turned);
+        self.turns = turned * part / time;
         for ((wheel, angle), read) in self.wheels.iter_mut().zip(angles).zip(reads) {
             *wheel += angle * part * read;
         }
