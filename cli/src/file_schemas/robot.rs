@@ -1,12 +1,16 @@
 //! The schema of a robot's file.
 
+mod sensing;
+
+use self::sensing::sensing;
 use super::DRAFT;
 use super::parts::{choice, choices, flag, id, integer, named, table, tables, text, with, word};
 use cotama_models::robots::known::{
     ASKS, AXLES, BODY_SPEEDS, CELLS, CHARGES, COEFFICIENTS, COSTS, COUNTS, CURRENTS, ERRORS,
-    FORMAT, HARM_UNITS, LENGTHENED, HOLDS, MASKS, MAX_PARAMETERS, MODES, MOTIONS, NO_LOADS, PERIODS,
-    PERSISTENCES, POSITIVE, POWERS, RADII, RANKS, RESISTANCES, RESTARTS, ROLLINGS, SETTINGS,
-    SEVERITIES, SLOWED, SPEEDS, TIMES, TRIES, TURNS, UNITS, UNWATCHED, VALUES, VOLTAGES, WHEELS,
+    FORMAT, HARM_UNITS, HOLDS, LENGTHENED, MASKS, MAX_PARAMETERS, MODES, MOTIONS, NO_LOADS,
+    PERIODS, PERSISTENCES, POSITIVE, POWERS, RADII, RANKS, RESISTANCES, RESTARTS, ROLLINGS,
+    SETTINGS, SEVERITIES, SLOWED, SPEEDS, TIMES, TRIES, TURNS, UNITS, UNWATCHED, VALUES, VOLTAGES,
+    WHEELS,
 };
 use cotama_models::robots::signals::{HARMS, ROLES, TOLD, WATCHES};
 use cotama_models::robots::{MAX_CONFIGURATIONS, MAX_FAILURES, MAX_FLAGS, MAX_PARTS};
@@ -87,7 +91,7 @@ fn body() -> Value {
     ];
     let wheels = table(&[], &wheels, "two driven wheels on one axle, for runs in the plane");
     let powered = [("wheels", wheels), ("motors", motors()), ("battery", battery())];
-    let can = [&can[..], &powered].concat();
+    let can = [&can[..], &powered, &sensing()].concat();
     table(&needs, &can, "how it moves; missions need it")
 }
 
@@ -258,8 +262,11 @@ fn failure() -> Value {
     let is = [("is", choice(&harms, "what happens to the device"))];
     let harm = [
         ("module", text("the module, where one is harmed and the failure has no `each`")),
-        ("unit", integer(&HARM_UNITS, "the sonar; or the side, 0 left, 1 right; 0")),
-        ("permille", integer(&LENGTHENED, "the part that is lost, or the time that comes; 500")),
+        ("unit", integer(&HARM_UNITS, "the sonar, the laser, or the side, 0 left, 1 right; 0")),
+        (
+            "permille",
+            integer(&LENGTHENED, "how much is lost, wrong or longer, in thousandths; 500"),
+        ),
     ];
     let can = [
         ("function", text("the function that is lost")),

@@ -79,7 +79,29 @@ pub const CHARGES: RangeInclusive<i64> = 1..=10_000_000;
 pub const CELLS: RangeInclusive<i64> = 1..=1_000;
 /// Thousandths of the commanded speed that are left.
 pub const SLOWED: RangeInclusive<i64> = 1..=999;
-/// Sonars that a failure harms; of two sides, the first ones.
+/// Rings of sonars: that of a Pioneer 3-DX, or none.
+pub const SONARS: [&str; 2] = ["pioneer", "none"];
+/// Places of devices on a robot, in mm.
+pub const MOUNTS: RangeInclusive<i64> = -10_000..=10_000;
+/// Ways that devices look, in degrees.
+pub const HEADINGS: RangeInclusive<i64> = -180..=180;
+/// Fields of view in degrees.
+pub const VIEWS: RangeInclusive<i64> = 1..=360;
+/// Rays of a scan.
+pub const RAYS: RangeInclusive<i64> = 8..=4_096;
+/// Ranges of lasers in mm.
+pub const RANGES: RangeInclusive<i64> = 100..=200_000;
+/// Least ranges, and deviations of ranges, in mm.
+pub const LEASTS: RangeInclusive<i64> = 0..=10_000;
+/// Times between readings in ms.
+pub const RATES: RangeInclusive<i64> = 10..=1_000;
+/// Times from a reading to its arrival in ms.
+pub const LATENCIES: RangeInclusive<i64> = 0..=1_000;
+/// Speeds at which pictures are sharp, in mm/s.
+pub const SHARP: RangeInclusive<i64> = 1..=10_000;
+/// Deviations of a gyro in millionths of rad/s.
+pub const NOISES: RangeInclusive<i64> = 0..=1_000_000;
+/// Sonars that a failure harms; of lasers and of two sides, the first ones.
 pub const HARM_UNITS: RangeInclusive<i64> = 0..=15;
 /// Parts that a harm takes, in thousandths.
 pub const HARMED: RangeInclusive<i64> = 1..=1_000;

@@ -72,6 +72,7 @@ mod reader;
 pub mod requirements;
 mod response;
 mod script;
+pub mod sensing;
 mod settings;
 pub mod signals;
 mod sound;
@@ -95,6 +96,7 @@ pub use printed::to_rust;
 pub use reaction::{Mask, Try};
 pub use response::{ADAPTS_IN, ASKS_IN, ENDS_IN, KNOWN_IN};
 pub use script::{Answer, Incident, IncidentKind, Moment};
+pub use sensing::Sensing;
 pub use settings::{Parameter, Setting, Value};
 pub use signals::{Harm, Harmed, Role, Watch};
 pub use tables::OwnedTables;
@@ -159,6 +161,8 @@ pub struct Body {
     pub motors: Option<Motors>,
     /// Battery; `None` where nothing is known of it.
     pub battery: Option<Battery>,
+    /// Devices by which it senses in the plane.
+    pub sensing: Sensing,
     /// Source of what is said of it; may be empty.
     pub source: String,
 }

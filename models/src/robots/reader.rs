@@ -3,6 +3,7 @@
 mod body;
 mod failures;
 mod reactions;
+mod sensing;
 mod settings;
 mod signals;
 
@@ -14,7 +15,7 @@ use super::sound::Places;
 use super::supervisors::{self, ReadNet};
 use super::{
     Configuration, Hardware, MAX_CONFIGURATIONS, MAX_FAILURES, MAX_FLAGS, MAX_LOSSES, MAX_PARTS,
-    MAX_REPORTS, Mode, Module, Observer, Parts, Robot, SubObjective, sound,
+    MAX_REPORTS, Mode, Module, Observer, Parts, Robot, Sensing, SubObjective, sound,
 };
 use crate::missions::reader::fields::{Fields, Sink, document_of_either};
 use crate::missions::{Diagnostic, MissionErrors, Spanned};
@@ -33,6 +34,8 @@ pub(super) struct Names {
     pub(super) modules: Vec<String>,
     pub(super) flags: Vec<String>,
     pub(super) parameters: Vec<settings::Named>,
+    /// The devices by which the robot senses.
+    pub(super) sensing: Sensing,
     /// Names under which restarts count together, and how often each.
     pub(super) shared: Vec<(String, u8)>,
     /// The place of each module, configuration, flag and failure.
@@ -80,9 +83,12 @@ fn robot(mut fields: Fields<'_>, own: &mut ReadNet<'_>) -> Option<Robot> {
     let mut names = Names::default();
     let name = fields.id("name");
     let title = words(&mut fields, "title");
-    let body = fields.optional_table("body").ok().map(|it| it.map(body::body));
     let hardware = named(&mut fields, "hardware", MAX_PARTS);
     names.hardware = hardware.iter().map(|it| it.0.value.clone()).collect();
+    let body = fields.optional_table("body").ok();
+    let body = body.map(|it| it.map(|it| body::body(it, &names.hardware)));
+    let sensing = body.iter().flatten().flatten().next().map(|it| it.sensing.clone());
+    names.sensing = sensing.unwrap_or_default();
     let modules = named(&mut fields, "module", MAX_PARTS);
     names.modules = modules.iter().map(|it| it.0.value.clone()).collect();
     names.at.modules = modules.iter().map(|it| it.0.span.clone()).collect();
@@ -339,7 +345,7 @@ fn observer((name, fields): Named<'_>, names: &mut Names) -> Option<Observer> {
         names.at.flags.push(it.span.clone());
     }
     let own = flags.as_ref().map_or(0, Vec::len);
-    let watches = signals::watches(&mut fields, own);
+    let watches = signals::watches(&mut fields, own, &names.sensing);
     if names.flags.len() > MAX_FLAGS && names.flags.len() - own <= MAX_FLAGS {
         let message = format!("a robot has at most {MAX_FLAGS} flags");
         let it = Diagnostic::new(fields.span_of("flags"), message, "too many");

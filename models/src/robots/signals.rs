@@ -102,6 +102,18 @@ pub enum Watch {
     ModuleSilent,
     /// A module that publishes values that are none.
     ValueOutside,
+    /// Scans of a laser that do not come; of any where no number is said.
+    LaserSilent(Option<u8>),
+    /// A laser that sees nothing within its range.
+    LaserBlind(Option<u8>),
+    /// Scans of a laser that do not match the map where the robot believes to be.
+    LaserApart(Option<u8>),
+    /// QR marks that should be in the picture and are not.
+    MarksMissing,
+    /// A gyro whose readings do not come.
+    GyroSilent,
+    /// The turn by the gyro apart from that by the encoders.
+    GyroApart,
 }
 
 /// The harm that a failure does to a device or a module.
@@ -173,6 +185,18 @@ pub enum Harm {
     ModuleCrashed,
     /// A module publishes values that are none.
     ModuleWrong,
+    /// A laser gives no scan.
+    LaserSilent,
+    /// A laser sees nothing.
+    LaserBlind,
+    /// A laser reads too far, by as many mm as the thousandths of the harm.
+    LaserBiased,
+    /// No mark is found, though images come.
+    MarksCovered,
+    /// A gyro gives no reading.
+    GyroDead,
+    /// A gyro reads more and more: after ten seconds as many thousandths of rad/s as the harm has.
+    GyroDrift,
 }
 
 impl Harm {
@@ -185,6 +209,11 @@ impl Harm {
     pub const fn lengthens(self) -> bool {
         matches!(self, Self::ModuleSlow | Self::ComputerBusy)
     }
+
+    /// Whether it is one of a laser, which `unit` numbers.
+    pub const fn is_of_laser(self) -> bool {
+        matches!(self, Self::LaserSilent | Self::LaserBlind | Self::LaserBiased)
+    }
 }
 
 /// A harm, and how much of it.
@@ -192,9 +221,10 @@ impl Harm {
 pub struct Harmed {
     /// The harm.
     pub harm: Harm,
-    /// The sonar, from 0 on; the side, of which 0 is left, 1 is right; or the module.
+    /// The sonar or the laser, from 0 on; the side, of which 0 is left, 1 is right; or the module.
     pub unit: u8,
-    /// The part that is lost, in thousandths; of jobs, the time that comes to them.
+    /// The part that is lost, in thousandths; of a reading that is wrong, how much, in thousandths
+    /// of its unit; of jobs, the time that comes to them.
     pub permille: u16,
 }
 
@@ -214,7 +244,7 @@ pub const ROLES: [(&str, Role); 8] = [
 pub const TOLD: &str = "told";
 
 /// Signals that flags are made of, by their words.
-pub const WATCHES: [(&str, Watch); 37] = [
+pub const WATCHES: [(&str, Watch); 55] = [
     ("largest range", Watch::LargestRange),
     ("shortest range", Watch::ShortestRange),
     ("no ranges", Watch::NoRanges),
@@ -252,10 +282,28 @@ pub const WATCHES: [(&str, Watch); 37] = [
     ("module late", Watch::ModuleLate),
     ("module silent", Watch::ModuleSilent),
     ("value outside", Watch::ValueOutside),
+    ("laser silent", Watch::LaserSilent(None)),
+    ("laser 0 silent", Watch::LaserSilent(Some(0))),
+    ("laser 1 silent", Watch::LaserSilent(Some(1))),
+    ("laser 2 silent", Watch::LaserSilent(Some(2))),
+    ("laser 3 silent", Watch::LaserSilent(Some(3))),
+    ("laser at its longest", Watch::LaserBlind(None)),
+    ("laser 0 at its longest", Watch::LaserBlind(Some(0))),
+    ("laser 1 at its longest", Watch::LaserBlind(Some(1))),
+    ("laser 2 at its longest", Watch::LaserBlind(Some(2))),
+    ("laser 3 at its longest", Watch::LaserBlind(Some(3))),
+    ("laser apart", Watch::LaserApart(None)),
+    ("laser 0 apart", Watch::LaserApart(Some(0))),
+    ("laser 1 apart", Watch::LaserApart(Some(1))),
+    ("laser 2 apart", Watch::LaserApart(Some(2))),
+    ("laser 3 apart", Watch::LaserApart(Some(3))),
+    ("marks missing", Watch::MarksMissing),
+    ("gyro silent", Watch::GyroSilent),
+    ("gyro apart", Watch::GyroApart),
 ];
 
 /// Harms of failures, by their words.
-pub const HARMS: [(&str, Harm); 33] = [
+pub const HARMS: [(&str, Harm); 39] = [
     ("sonar far", Harm::SonarFar),
     ("sonar near", Harm::SonarNear),
     ("sonars silent", Harm::SonarSilent),
@@ -289,4 +337,10 @@ pub const HARMS: [(&str, Harm); 33] = [
     ("module slow", Harm::ModuleSlow),
     ("module crashed", Harm::ModuleCrashed),
     ("module wrong", Harm::ModuleWrong),
+    ("laser silent", Harm::LaserSilent),
+    ("laser blind", Harm::LaserBlind),
+    ("laser biased", Harm::LaserBiased),
+    ("marks covered", Harm::MarksCovered),
+    ("gyro dead", Harm::GyroDead),
+    ("gyro drift", Harm::GyroDrift),
 ];

@@ -1,5 +1,6 @@
 //! What is around a robot, and how it keeps away from it.
 
+use crate::devices::Devices;
 use crate::sonars::{RANGE_M, ring};
 use cotama_core::units::Millis;
 use cotama_devices::Ring;
@@ -49,6 +50,8 @@ const FREE_M: f64 = 1.2;
 const PURSUED_M: f64 = 1.5;
 /// The points around it that it keeps: three of each sonar, for 2 s.
 const MOST_POINTS: usize = 1_000;
+/// The points of a robot with lasers.
+const MOST_SCANNED: usize = 6_000;
 /// The room that avoidance keeps beside the robot, in metres.
 const MARGIN_M: f64 = 0.05;
 /// By how much a pose may be wrong: paths have just the room that the robot needs.
@@ -57,9 +60,10 @@ const ASIDE_M: f64 = 0.07;
 const BACK: [f64; 2] = [0.4, 0.1];
 const BACK_PERIODS: u32 = 80;
 impl Around {
-    pub(crate) fn new(rover: &Rover<'_>) -> Self {
+    pub(crate) fn new(rover: &Rover<'_>, has_lasers: bool) -> Self {
+        let points = if has_lasers { MOST_SCANNED } else { MOST_POINTS };
         Self {
-            map: LocalMap::new(MOST_POINTS, Millis(2_000)),
+            map: LocalMap::new(points, Millis(2_000)),
             histogram: Histogram::new(braking(rover), Thresholds::default()),
             before: *rover.odometry(),
             motion: Pose::identity(),
@@ -68,14 +72,21 @@ impl Around {
         }
     }
 
-    /// Takes in the newest ranges of the sonars.
-    pub(crate) fn see(&mut self, rover: &Rover<'_>, sonars: &Ring, time: Millis) {
+    /// Takes in the newest ranges of the sonars, and of the devices under the modules that run.
+    pub(crate) fn see(
+        &mut self,
+        rover: &Rover<'_>,
+        sonars: &Ring,
+        (devices, under): (&Devices, u64),
+        time: Millis,
+    ) {
         let odometry = *rover.odometry();
         self.motion = self.before.inverse() * odometry;
         self.before = odometry;
         self.map.advance(&self.motion, time);
+        devices.lasers.map(under, rover.now(), &odometry, &mut self.map);
         let settings = ring();
-        if let Some(read) = sonars.latest(rover.now()) {
+        if let Some(read) = sonars.latest(rover.now()).filter(|_| devices.has_sonars()) {
             self.map.take_ring(&settings.mounts, settings.cone_rad, RANGE_M, read);
         }
     }
@@ -134,8 +145,18 @@ impl Around {
 
 /// Returns the room along the path by the ranges, in metres beyond the robot: up to the first
 /// echo so near to the path that the robot would touch what sent it.
-pub(crate) fn free(rover: &Rover<'_>, ranges: &[[f64; 16]; 2]) -> f64 {
-    let radius = rover.course().drivetrain().footprint.radius();
+pub(crate) fn free(
+    rover: &Rover<'_>,
+    ranges: &[[f64; 16]; 2],
+    (devices, under): (&Devices, u64),
+) -> f64 {
+    let drivetrain = rover.course().drivetrain();
+    let radius = drivetrain.footprint.radius();
+    let scanned = devices.lasers.points(under, rover.now(), rover.odometry());
+    // As far as it needs to brake, where it sees so far.
+    let brakes = drivetrain.speed * drivetrain.speed / (2.0 * drivetrain.acceleration);
+    let has_lasers = devices.lasers.count() > 0;
+    let ahead = if has_lasers { AHEAD_M.max(brakes + NEAR_M) } else { AHEAD_M };
     let (track, along, pose) = (rover.course().track(), rover.along(), rover.believed());
     let mounts = ring().mounts;
     let both = ranges[0].iter().zip(&ranges[1]);
@@ -143,8 +164,8 @@ pub(crate) fn free(rover: &Rover<'_>, ranges: &[[f64; 16]; 2]) -> f64 {
         let range = now.max(*before);
         (range < RANGE_M).then(|| mount * Point::new(range, 0.0))
     });
-    let ways = points.filter_map(|it| {
-        let (near, aside) = track.find(pose * it, along, along + AHEAD_M);
+    let ways = points.chain(scanned).filter_map(|it| {
+        let (near, aside) = track.find(pose * it, along, along + ahead);
         let is_in_way = aside < radius - ASIDE_M && near.along > along + ASIDE_M;
         is_in_way.then_some(near.along - along - radius)
     });

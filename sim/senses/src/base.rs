@@ -31,6 +31,8 @@ pub(crate) struct Base {
     pub(crate) ohms: f64,
     pub(crate) acceleration: f64,
     noise: Stream,
+    /// The turn that the gyro reads, in rad/s.
+    pub(crate) gyro: Option<f64>,
     counts: [i64; 2],
     way_m: f64,
     restarts: bool,
@@ -70,7 +72,8 @@ impl Base {
         let ohms = of.battery.map_or(OHMS, |it| it.resistance());
         let (counts, way_m) = ([0; 2], 0.0);
         let (settings, acceleration) = (settings(of), of.acceleration);
-        Self { settings, ohms, acceleration, noise, counts, way_m, restarts: false, newest: None }
+        let (gyro, restarts, newest) = (None, false, None);
+        Self { settings, ohms, acceleration, noise, gyro, counts, way_m, restarts, newest }
     }
 
     /// Begins anew with the next packet.
@@ -116,7 +119,7 @@ impl Base {
         let touches = rover.is_pressed() && has(Harm::BumperDead).is_none();
         let pressed = u16::from(touches || has(Harm::BumperClosed).is_some());
         let packet = Packet {
-            wheels: Wheels { dt, commanded, encoder, current, gyro: None },
+            wheels: Wheels { dt, commanded, encoder, current, gyro: self.gyro },
             stalled: motors.map_or([false; 2], |it| it.stalled),
             pressed,
             is_stopped: has(Harm::EmergencyStop).is_some(),

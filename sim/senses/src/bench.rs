@@ -1,12 +1,13 @@
 //! The common part of the robots of a mission: the map, and what a sound robot shows on its course.
 
+use crate::lasers::{self, Lasers};
 use crate::sonars::{RANGE_M, ring, short};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
-use cotama_devices::{MAX_ACCESS_POINTS, Ring, Scene, SettingsError, Streams};
-use cotama_floor::{Bounds, Point, Surface, Vector};
+use cotama_devices::{MAX_ACCESS_POINTS, QrMark, Ring, Scene, SettingsError, Streams};
+use cotama_floor::{Bounds, Floor, Point, Vector};
 use cotama_localisation::{Chart, Model, Parameters, Sensor};
-use cotama_models::robots::Body;
-use cotama_observers::{Jumps, SonarSurvey, Survey, Tail};
+use cotama_models::robots::{Body, Robot};
+use cotama_observers::{Jumps, LastingSurvey, SonarSurvey, Survey, Tail};
 use cotama_plane::{Course, Rover};
 use std::fmt;
 
@@ -21,6 +22,11 @@ pub struct Bench {
     pub(crate) jumps: Tail,
     /// The access points of the link to the operator.
     pub(crate) access: Vec<Point>,
+    /// The lasers by which the robot localises, a bit each; where there are none, by its sonars.
+    pub(crate) localising: u64,
+    /// Of each laser, how long it sees nothing, and how long it does not match the map.
+    pub(crate) scans: Vec<[Tail; 2]>,
+    pub(crate) marks: Vec<QrMark>,
 }
 
 /// Why a robot has no senses.
@@ -56,8 +62,11 @@ const FAR_BEYOND_M: f64 = 0.25;
 const NEAR_BEYOND_M: f64 = 0.3;
 /// The most of a tile of the floor that one access point serves, in metres.
 const TILE_M: f64 = 10.0;
-/// The longest survey.
+/// Spells in which a scan sees nothing, or does not match the map, that a survey notes, in s.
+const SCAN_BEYOND_S: f64 = 0.3;
+/// Times in which ranges jump that a survey notes, in seconds.
 const JUMPY_BEYOND_S: f64 = 0.2;
+/// The longest survey.
 const LONGEST: Millis = Millis(3_600_000);
 
 /// Parameters of the filter: 100 to 500 particles; the ring is one reading of 16 beams.
@@ -80,13 +89,20 @@ impl Bench {
     ///
     /// # Errors
     /// A [`NoBench`] for a floor that is too large, or numbers that make no sense.
-    pub fn of(course: &Course, body: &Body) -> Result<Self, NoBench> {
+    pub fn of(course: &Course, robot: &Robot, body: &Body) -> Result<Self, NoBench> {
         let why = |it: &dyn fmt::Display| NoBench::Chart(it.to_string());
         let settings = ring();
-        let sensor = Sensor::sonars(&settings.mounts, settings.cone_rad, 3, RANGE_M);
+        let sensing = &body.sensing;
+        let localising = lasers::localising(robot, sensing);
+        let (sensor, parameters) = if localising == 0 {
+            let ring = Sensor::sonars(&settings.mounts, settings.cone_rad, 3, RANGE_M);
+            (ring, parameters())
+        } else {
+            (lasers::sensor(&sensing.lasers, localising), lasers::parameters())
+        };
         let sensor = sensor.map_err(|it| why(&it))?;
         let charted = course.charted();
-        let chart = Chart::new(charted, CELL_M, &sensor, &parameters()).map_err(|it| why(&it))?;
+        let chart = Chart::new(charted, CELL_M, &sensor, &parameters).map_err(|it| why(&it))?;
         let mut far = SonarSurvey::new(RANGE_M, FAR_BEYOND_M)?;
         let mut near = SonarSurvey::new(RANGE_M, NEAR_BEYOND_M)?;
         let mut behind = Survey::beyond(2.0)?;
@@ -95,6 +111,10 @@ impl Bench {
         let (mut jumping, mut jumping_s) = (Jumps::default(), 0.0);
         let streams = Streams::new(0x5EED);
         let mut ring = Ring::new(&settings, &streams, "survey")?;
+        let mut scanners = Lasers::new(sensing, streams)?;
+        let beyond = || LastingSurvey::beyond(SCAN_BEYOND_S);
+        let scans = (0..scanners.count()).map(|_| Ok([beyond()?, beyond()?]));
+        let mut scans = scans.collect::<Result<Vec<_>, SettingsError>>()?;
         let mut rover = Rover::new(course, 0);
         let end = Millimetres((course.track().length() * 1_000.0) as u64);
         let (period, mut way_m) = (body.period, 0.0);
@@ -102,7 +122,16 @@ impl Bench {
             let before = *rover.pose();
             rover.go(MillimetresPerSecond(body.speed_max.0), end, period);
             way_m += (rover.pose().translation.vector - before.translation.vector).norm();
-            ring.sense(rover.now(), rover.pose(), &Scene::of(course.surface(), &[]));
+            let scene = Scene::of(course.surface(), &[]);
+            ring.sense(rover.now(), rover.pose(), &scene);
+            scanners.sense(rover.now(), rover.pose(), rover.odometry(), &scene);
+            let origin = rover.pose() * rover.odometry().inverse();
+            for (at, [blind, apart]) in scans.iter_mut().enumerate() {
+                let is_blind = scanners.is_blind(at, rover.now());
+                is_blind.into_iter().for_each(|it| blind.look(it));
+                let is_apart = scanners.is_apart(at, rover.now(), &origin, charted);
+                is_apart.into_iter().for_each(|it| apart.look(it));
+            }
             if let Some(read) = ring.latest(rover.now()) {
                 far.look(read, way_m, period);
                 if jumping.look(read) {
@@ -119,7 +148,12 @@ impl Bench {
         jumps.watch(rover.now());
         let (behind, waits, jumps) = (behind.tail()?, waits.tail()?, jumps.tail()?);
         let access = access_points(&course.surface().bounds());
-        Ok(Self { chart, far, near, behind, waits, jumps, access })
+        let scans = scans.iter().map(|[blind, apart]| Ok([blind.tail()?, apart.tail()?]));
+        let scans = scans.collect::<Result<_, SettingsError>>()?;
+        let way = course.way();
+        let marks = Floor::parse(&way.source, &way.text).map(|it| QrMark::of(&it));
+        let marks = marks.unwrap_or_default();
+        Ok(Self { chart, far, near, behind, waits, jumps, access, localising, scans, marks })
     }
 }
 

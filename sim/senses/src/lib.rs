@@ -10,7 +10,8 @@
 //! | signal | by |
 //! | --- | --- |
 //! | ranges of 16 sonars | [`Ring`](cotama_devices::Ring) |
-//! | pose in the map | [`Localiser`](cotama_localisation::Localiser), by these ranges |
+//! | scans of lasers, pictures, turns | [`Laser`](cotama_devices::Laser), [`Camera`](cotama_devices::Camera), [`Gyro`](cotama_devices::Gyro), as the robot's file has them |
+//! | pose in the map | [`Localiser`](cotama_localisation::Localiser), by scans or ranges; a Kalman filter, by marks |
 //! | pose by encoders | [`Odometry`](cotama_plane::Odometry) |
 //! | speeds, currents, stall, bumpers, voltage | packets of the micro-controller |
 //! | level of the link, heartbeat of the operator | [`Link`](cotama_devices::Link) |
@@ -22,10 +23,15 @@
 mod around;
 mod base;
 mod bench;
+mod devices;
+mod gyro;
+mod lasers;
+mod marks;
 mod modules;
 mod observing;
 mod senses;
 mod sonars;
+mod watching;
 
 pub use bench::{Bench, NoBench};
 pub use cotama_devices::SettingsError;

@@ -3,7 +3,7 @@
 use cotama_core::executive::{Executive, Happening, Request, Task, What};
 use cotama_core::units::{Micros, Millis};
 use cotama_devices::SettingsError;
-use cotama_models::robots::{Harm, Harmed, Robot, Role, Watch};
+use cotama_models::robots::{Harm, Harmed, Module, Robot, Role, Watch};
 
 /// The most scheduled modules of a robot that senses by itself.
 const MOST: usize = 32;
@@ -26,6 +26,7 @@ struct Scheduled {
     cost: u64,
     particle: u64,
     localises: bool,
+    period: Millis,
     runs: bool,
     pace: Pace,
     /// Since when it runs, or when it published last.
@@ -65,13 +66,15 @@ impl Jobs {
 }
 
 impl Modules {
-    /// All modules that have a period and a cost; none runs.
+    /// All modules that have a period and a cost, or a role: such a one without times runs in each
+    /// period, in next to no time; none runs yet.
     ///
     /// # Errors
     /// More than 32 of them.
     pub(crate) fn new(robot: &Robot) -> Result<Self, SettingsError> {
         let scheduled = |it: &usize| {
-            robot.modules.get(*it).is_some_and(|it| it.period.is_some() && it.cost.is_some())
+            let has_times = |it: &Module| it.period.is_some() && it.cost.is_some();
+            robot.modules.get(*it).is_some_and(|it| has_times(it) || !it.roles.is_empty())
         };
         let mut numbers: Vec<_> = (0..robot.modules.len()).filter(scheduled).collect();
         numbers.sort_by_key(|it| robot.modules.get(*it).map(|it| (it.priority, it.deadline)));
@@ -103,6 +106,7 @@ impl Modules {
                 cost: rest,
                 particle,
                 localises,
+                period,
                 runs: false,
                 pace: Pace::InTime,
                 heard: Micros(0),
@@ -199,7 +203,7 @@ impl Modules {
             let late = if it.localises { Watch::LocalisationLate } else { Watch::ModuleLate };
             if it.pace == Pace::Late {
                 jobs.shown.push(late);
-            } else if quiet > (SILENT_AFTER + 1) * period.0 * 1_000 {
+            } else if quiet > (SILENT_AFTER + 1) * it.period.0.max(period.0) * 1_000 {
                 jobs.shown.push(Watch::ModuleSilent);
             }
         }

@@ -4,6 +4,7 @@ use crate::base::{Base, CRITICAL_V, LOW_V};
 use crate::bench::Bench;
 use crate::modules::Jobs;
 use crate::sonars::short;
+use crate::watching::Raised;
 use cotama_core::units::Millis;
 use cotama_devices::{Rate, Sensed, SettingsError};
 use cotama_models::robots::{Observer, Robot, Watch};
@@ -14,7 +15,7 @@ use cotama_observers::{
 };
 
 /// False alarms per hour of each flag (assumed: one in 100 hours).
-const PER_HOUR: f64 = 0.01;
+pub(crate) const PER_HOUR: f64 = 0.01;
 /// The noise of a range, in metres.
 const NOISE_M: f64 = 0.02;
 /// The room ahead in which bumpers are not to be pressed, in metres.
@@ -40,6 +41,7 @@ pub(crate) struct Period<'s> {
     /// The speed that the motors were told, in m/s.
     pub(crate) told_m_s: f64,
     pub(crate) has_no_plan: bool,
+    pub(crate) devices: Raised,
 }
 
 /// The observers.
@@ -235,6 +237,7 @@ impl Observing {
                 | Watch::ModuleLate
                 | Watch::ModuleSilent
                 | Watch::ValueOutside => it.jobs.shows(watch),
+                other => it.devices.is_up(other),
             }
         };
         self.watches.iter().filter(|it| up(it.1)).fold(0, |set, it| set | it.0)

@@ -3,8 +3,9 @@
 use crate::around::{Around, KEEPS_M, Order, Wants, free};
 use crate::base::{Base, LOW_CHARGE, faults};
 use crate::bench::Bench;
+use crate::devices::{By, Devices};
 use crate::modules::{Jobs, Modules};
-use crate::observing::{Observing, Period};
+use crate::observing::{Observing, PER_HOUR, Period};
 use crate::sonars::{RANGE_M, ring};
 use cotama_core::executive::{Happening, Latest};
 use cotama_core::units::{Micros, MillimetresPerSecond, Millis};
@@ -14,7 +15,7 @@ use cotama_devices::{
 use cotama_floor::Pose;
 use cotama_localisation::Localiser;
 use cotama_models::robots::{Harm, Harmed, Robot, Role, members};
-use cotama_observers::{OnPath, Poses};
+use cotama_observers::{FalseAlarms, OnPath, Poses};
 use cotama_plane::Rover;
 use nalgebra::{Matrix3, Vector3};
 
@@ -27,6 +28,7 @@ pub struct Senses<'b> {
     localiser: Localiser<'b>,
     base: Base,
     observing: Observing,
+    devices: Devices,
     modules: Modules,
     mail: Mail,
     streams: Streams,
@@ -36,8 +38,12 @@ pub struct Senses<'b> {
     origin: Pose,
     /// The ranges, and those of the reading before: an echo of something is there twice.
     ranges: [[f64; 16]; 2],
-    is_located: bool,
+    located: Option<By>,
     is_led: bool,
+    /// The time since signals were read.
+    unread: Millis,
+    /// The modules that begin anew with the next reading, a bit each.
+    restarted: u64,
     image: Option<(Millis, Millis)>,
     heard: Option<Millis>,
     flags: u64,
@@ -89,6 +95,8 @@ impl Default for Uses {
     }
 }
 
+/// The time between two readings of all signals.
+const READS: Millis = Millis(100);
 /// A speed that no robot has, in mm/s.
 const MOST_MM_S: f64 = 1e6;
 /// Way by which localisation is led astray when it is lost, in metres.
@@ -120,6 +128,9 @@ impl<'b> Senses<'b> {
         let streams = Streams::new(seed);
         let base = Base::new(rover.course().drivetrain(), streams.stream("base"));
         let observing = Observing::new(robot, bench, &base)?;
+        let promise = FalseAlarms::per_hour(PER_HOUR)?;
+        let devices = Devices::new(robot, bench, streams, promise)?;
+        let around = Around::new(rover, devices.lasers.count() > 0);
         let mut it = Self {
             robot,
             ring: Ring::new(&ring(), &streams, "sonar")?,
@@ -127,6 +138,7 @@ impl<'b> Senses<'b> {
             localiser: Localiser::new(&bench.chart, &streams, "localisation"),
             base,
             observing,
+            devices,
             modules: Modules::new(robot)?,
             mail: Mail::default(),
             streams,
@@ -134,14 +146,16 @@ impl<'b> Senses<'b> {
             harms: Vec::new(),
             origin: Pose::identity(),
             ranges: [[RANGE_M; 16]; 2],
-            is_located: false,
+            located: None,
             is_led: false,
+            unread: Millis(0),
+            restarted: 0,
             image: None,
             heard: None,
             flags: 0,
             is_commanded: true,
             put: Vec::new(),
-            around: Around::new(rover),
+            around,
         };
         it.put(rover.pose());
         Ok(it)
@@ -213,6 +227,7 @@ impl<'b> Senses<'b> {
             let set = self.ring.set_faults(sonar, &faults, &self.streams, "sonar");
             debug_assert!(set.is_ok(), "faults of a ring of 16 sonars");
         }
+        self.devices.harm(harms, rover.now(), self.streams);
         if is_new(Harm::PacketsRestart) {
             self.base.restart();
             rover.forget();
@@ -243,9 +258,8 @@ impl<'b> Senses<'b> {
         self.put.iter().for_each(|it| rover.put(Some(it.1)));
     }
 
-    /// Senses after a period, and looks what is wrong.
-    ///
-    /// `told` is the speed that the motors were told.
+    /// Senses after a period, and looks what is wrong; of shorter periods than 100 ms, after as
+    /// many as make such a time. `told` is the speed that the motors were told.
     pub fn sense(
         &mut self,
         rover: &mut Rover<'_>,
@@ -253,15 +267,24 @@ impl<'b> Senses<'b> {
         told: MillimetresPerSecond,
         time: Millis,
     ) {
+        self.restarted |= uses.restarted;
+        self.unread.0 += time.0;
+        if self.unread < READS {
+            return;
+        }
+        let time = core::mem::take(&mut self.unread);
         let now = rover.now();
         let things = self.put.iter().filter(|it| it.0 != Harm::ThingUnseen).map(|it| &it.1);
         let around: Vec<Disc> = rover.people().iter().chain(things).copied().collect();
         let scene = Scene::of(rover.course().surface(), &around);
         self.ring.sense(now, rover.pose(), &scene);
+        self.devices.sense(rover, &around);
+        let fresh = |it: &Sensed<f64>| now.0.saturating_sub(it.taken.0) < time.0;
+        self.base.gyro = self.devices.turn(now).filter(fresh).map(|it| it.value);
         let packets = self.base.taken();
         self.base.read(rover, time.0 as f64 / 1_000.0, &self.harms);
         let is_packet_lost = self.base.taken() == packets;
-        self.modules.restart(uses.restarted);
+        self.modules.restart(core::mem::take(&mut self.restarted));
         let particles = self.localiser.estimate().particles;
         let jobs = self.modules.pass(uses.modules, &self.harms, particles, (now, time));
         self.localiser.allow(usize::try_from(uses.particles).unwrap_or(usize::MAX));
@@ -269,7 +292,9 @@ impl<'b> Senses<'b> {
             let all = members(uses.modules).filter_map(|it| self.robot.modules.get(it));
             all.flat_map(|it| &it.roles).any(|it| *it == role)
         };
-        let (locates, avoids) = (has(Role::Localisation), has(Role::Avoidance));
+        let avoids = has(Role::Avoidance);
+        let by = self.devices.by(self.robot, uses.modules);
+        let under = self.devices.under(self.robot, uses.modules);
         // A role that runs in no module takes no time; one that does works as its module publishes.
         let works = |role: Role| !has(role) || jobs.of(self.robot, role).is_some();
         let commander = if uses.is_led { Role::Link } else { Role::Guidance };
@@ -279,15 +304,16 @@ impl<'b> Senses<'b> {
             (works(Role::Ranges), works(Role::Images), works(Role::Link));
         self.hear(now, rover, [is_seen, is_linked]);
         if is_read {
-            let read = self.ring.latest(now).unwrap_or(&[]);
+            let read = self.ring.latest(now).filter(|_| self.devices.has_sonars()).unwrap_or(&[]);
             self.ranges.swap(0, 1);
             for (range, it) in self.ranges[0].iter_mut().zip(read) {
                 *range = it.map_or(RANGE_M, |it| it.value);
             }
         }
-        self.locate(rover, locates, &jobs, uses.is_led);
-        let free = free(rover, &self.ranges);
-        self.around.see(rover, &self.ring, time);
+        self.devices.see(rover, &self.origin, by.filter(|_| !uses.is_led));
+        self.locate(rover, by, &jobs, uses.is_led);
+        let free = free(rover, &self.ranges, (&self.devices, under));
+        self.around.see(rover, &self.ring, (&self.devices, under), time);
         let published = jobs.of(self.robot, Role::Avoidance).and_then(Happening::publication);
         let wants = if uses.is_led {
             Wants::Led
@@ -303,13 +329,12 @@ impl<'b> Senses<'b> {
                 _ => self.mail.order = Latest::empty(),
             },
         }
-        let estimate = self.localiser.estimate();
         let is_new = jobs.of(self.robot, Role::Localisation).is_some();
-        let poses = (locates && is_new).then(|| Poses {
-            odometry: *rover.odometry(),
-            located: self.localiser.pose_at(rover.odometry()),
-            covariance: estimate.covariance,
+        let poses = by.filter(|_| is_new).map(|it| {
+            let (located, covariance) = self.located_at(rover.odometry(), it);
+            Poses { odometry: *rover.odometry(), located, covariance }
         });
+        let devices = self.devices.look(rover, &self.origin, by);
         let track = rover.course().track();
         let along = rover.along();
         let at = rover.believed().translation.vector.into();
@@ -334,6 +359,7 @@ impl<'b> Senses<'b> {
             jobs: &jobs,
             told_m_s: told.0 as f64 / 1_000.0,
             has_no_plan,
+            devices,
         };
         self.flags = self.observing.look(&period);
     }
@@ -354,25 +380,44 @@ impl<'b> Senses<'b> {
     }
 
     /// Works out where the robot is, and lets it believe so.
-    fn locate(&mut self, rover: &mut Rover<'_>, locates: bool, jobs: &Jobs, is_led: bool) {
+    fn locate(&mut self, rover: &mut Rover<'_>, by: Option<By>, jobs: &Jobs, is_led: bool) {
         let odometry = *rover.odometry();
         if is_led {
             self.origin = rover.pose() * odometry.inverse();
         } else {
-            if self.is_led || (locates && !self.is_located) {
-                self.put(&(self.origin * odometry));
+            if self.is_led || (by.is_some() && by != self.located) {
+                let believed = self.origin * odometry;
+                self.put(&believed);
+                self.devices.marks.iter_mut().for_each(|it| it.begin(believed, odometry));
             }
             let published =
                 jobs.of(self.robot, Role::Localisation).and_then(Happening::publication);
-            if let (true, Some(publication)) = (locates, published) {
-                self.localiser.update(&odometry, &self.ranges[0]);
-                let origin = self.localiser.pose_at(&odometry) * odometry.inverse();
+            if let (Some(by), Some(publication)) = (by, published) {
+                match by {
+                    By::Ring => {
+                        self.localiser.update(&odometry, &self.ranges[0]);
+                    }
+                    By::Lasers => {
+                        if let Some(it) = self.devices.reading(rover.now()) {
+                            self.localiser.update(&it.odometry, &it.ranges);
+                        }
+                    }
+                    By::Marks => {}
+                }
+                let origin = self.located_at(&odometry, by).0 * odometry.inverse();
                 self.mail.origin.publish(publication, origin);
                 self.origin = origin;
             }
         }
-        (self.is_led, self.is_located) = (is_led, locates);
+        (self.is_led, self.located) = (is_led, by);
         rover.believe(self.origin);
+    }
+
+    /// Returns the pose by localisation, with its covariance.
+    fn located_at(&self, odometry: &Pose, by: By) -> (Pose, Matrix3<f64>) {
+        let marks = self.devices.marks.as_ref().filter(|_| by == By::Marks);
+        let by_ranges = || (self.localiser.pose_at(odometry), self.localiser.estimate().covariance);
+        marks.map_or_else(by_ranges, |it| it.pose_at(odometry))
     }
 }
 

@@ -327,7 +327,7 @@ impl<'m> Driven<'m> {
             Fidelity::Plane | Fidelity::Signal => {
                 let course = Course::of(mission, options.people).map_err(Undriven::NoCourse)?;
                 let body = robot.body.as_ref().filter(|_| options.fidelity == Fidelity::Signal);
-                let bench = body.map(|it| Bench::of(&course, it)).transpose();
+                let bench = body.map(|it| Bench::of(&course, robot, it)).transpose();
                 let bench = bench.map_err(|it| Undriven::NoSenses(it.to_string()))?;
                 Some(Box::new(Ground { course, bench }))
             }

@@ -15,7 +15,7 @@ const PERIOD: Millis = Millis(100);
 /// The radius of a robot where nothing is said: a Pioneer 3-DX (its manual, appendix B).
 const RADIUS: Millimetres = Millimetres(260);
 
-pub(super) fn body(mut fields: Fields<'_>) -> Option<Body> {
+pub(super) fn body(mut fields: Fields<'_>, hardware: &[String]) -> Option<Body> {
     let speed_max = fields.integer("speed_max_mm_s", BODY_SPEEDS).map(MillimetresPerSecond);
     let acceleration = fields.integer("acceleration_mm_s2", POSITIVE);
     let radius = fields.optional_integer("radius_mm", RADII);
@@ -36,6 +36,7 @@ pub(super) fn body(mut fields: Fields<'_>) -> Option<Body> {
         Ok(it) => it.map_or(Some(None), |it| battery(it).map(Some)),
         Err(_) => None,
     };
+    let sensing = super::sensing::sensing(&mut fields, hardware);
     let mass = fields.optional_integer::<u64>("mass_g", POSITIVE);
     let energy = fields.optional_integer::<u64>("impact_energy_max_mj", POSITIVE);
     let source = super::words(&mut fields, "source");
@@ -71,6 +72,7 @@ pub(super) fn body(mut fields: Fields<'_>) -> Option<Body> {
         wheels: wheels?,
         motors: motors?,
         battery: battery?,
+        sensing: sensing?,
         source,
     })
 }

@@ -4,6 +4,7 @@ use super::Names;
 use crate::missions::Diagnostic;
 use crate::missions::reader::fields::Fields;
 use crate::robots::known::{HARM_UNITS, HARMED, LENGTHENED};
+use crate::robots::sensing::Sensing;
 use crate::robots::signals::{HARMS, Harm, Harmed, ROLES, Role, TOLD, WATCHES, Watch};
 
 /// The algorithms of a module.
@@ -16,7 +17,11 @@ pub(super) fn roles(fields: &mut Fields<'_>) -> Option<Vec<Role>> {
 }
 
 /// The signals of the flags of an observer: of none, or of each.
-pub(super) fn watches(fields: &mut Fields<'_>, flags: usize) -> Option<Vec<Option<Watch>>> {
+pub(super) fn watches(
+    fields: &mut Fields<'_>,
+    flags: usize,
+    of: &Sensing,
+) -> Option<Vec<Option<Watch>>> {
     let all = fields.optional_texts("watches").ok()?;
     let known = || WATCHES.iter().map(|it| it.0).chain([TOLD]);
     let read: Vec<_> = all.iter().map(|it| fields.index_of(it, "signal", known())).collect();
@@ -28,7 +33,34 @@ pub(super) fn watches(fields: &mut Fields<'_>, flags: usize) -> Option<Vec<Optio
         fields.report(it.help(format!("write {TOLD:?} for a flag that no signal raises")));
         return None;
     }
-    Some(read.into_iter().map(|it| WATCHES.get(it).map(|it| it.1)).collect())
+    let read = read.into_iter().map(|it| WATCHES.get(it).map(|it| it.1));
+    let read: Vec<_> = read.collect();
+    for (word, watch) in all.iter().zip(&read) {
+        if let Some(device) = watch.and_then(|it| missing(it, of)) {
+            let message = format!("no {device} of the robot gives this signal");
+            let it = Diagnostic::new(word.span.clone(), message, "no such device");
+            fields.report(it.help(DEVICES));
+        }
+    }
+    Some(read)
+}
+
+/// The remedy for a device that is not there.
+const DEVICES: &str = "`[body]` has the devices: `[[body.laser]]`, from 0 on, `[body.camera]`, \
+                       `[body.gyro]`, `sonars`";
+
+/// Returns the device of a signal, if the robot has none such.
+fn missing(watch: Watch, of: &Sensing) -> Option<&'static str> {
+    let (is_there, device) = match watch {
+        Watch::LaserSilent(it) | Watch::LaserBlind(it) | Watch::LaserApart(it) => {
+            (usize::from(it.unwrap_or(0)) < of.lasers.len(), "laser")
+        }
+        Watch::MarksMissing => (of.camera.is_some(), "camera"),
+        Watch::GyroSilent | Watch::GyroApart => (of.gyro.is_some(), "gyro"),
+        Watch::LargestRange | Watch::ShortestRange | Watch::NoRanges => (!of.no_sonars, "sonar"),
+        _ => (true, ""),
+    };
+    (!is_there).then_some(device)
 }
 
 /// The harm of a failure, if it has one; where the failure is one of each of some modules, that of
@@ -70,8 +102,24 @@ fn harmed(mut fields: Fields<'_>, names: &Names, has_each: bool) -> Option<Harme
         return Some(Harmed { harm: harm?, unit, permille: permille.ok()?.unwrap_or(500) });
     }
     let unit = fields.optional_integer("unit", HARM_UNITS);
-    let is_sonar = matches!(harm, Some(Harm::SonarFar | Harm::SonarNear));
-    if !is_sonar && harm.is_some() && matches!(unit, Ok(Some(2_u8..))) {
+    let of = &names.sensing;
+    let is_numbered = matches!(harm, Some(Harm::SonarFar | Harm::SonarNear));
+    let is_of_laser = harm.is_some_and(Harm::is_of_laser);
+    let number = unit.as_ref().ok().copied().flatten().unwrap_or(0);
+    let (lasers, has_marks) = (of.lasers.len(), of.camera.is_some());
+    let is_there = match harm {
+        Some(Harm::MarksCovered) => has_marks,
+        Some(Harm::GyroDead | Harm::GyroDrift) => of.gyro.is_some(),
+        Some(it) if it.is_of_laser() => usize::from(number) < lasers,
+        _ => true,
+    };
+    if !is_there {
+        let key = if is_of_laser && lasers > 0 { "unit" } else { "is" };
+        let message = "the robot has no such device";
+        let it = Diagnostic::new(fields.span_of(key), message, "not in `[body]`");
+        fields.report(it.help(DEVICES));
+    }
+    if !is_numbered && !is_of_laser && harm.is_some() && matches!(unit, Ok(Some(2_u8..))) {
         let it = Diagnostic::new(fields.span_of("unit"), "there are two sides", "no side");
         fields.report(it.help("write 0 for the left one, or 1 for the right one"));
     }
