@@ -92,12 +92,12 @@ pub(crate) fn way(
     let beside = folder.map(|it| it.join(&asked.floor)).filter(|it| it.exists());
     let name = match beside {
         Some(file) => file.display().to_string(),
-        None if asked.floor == OFFICE => asked.floor.clone(),
+        None if embedded::named(&asked.floor).is_some() => asked.floor.clone(),
         None => return Ok(None),
     };
-    let text = match name.as_str() {
-        OFFICE => embedded::OFFICE.text.to_owned(),
-        file => input::text(file, "a floor", FLOOR_BYTES)?,
+    let text = match embedded::named(&name) {
+        Some(it) => it.text.to_owned(),
+        None => input::text(&name, "a floor", FLOOR_BYTES)?,
     };
     Ok(Some(read(&name, screen)?.ground().way(&name, &text, asked, needs)))
 }
@@ -110,17 +110,14 @@ pub(crate) fn drawing(name: &str) -> Result<Floor, Failure> {
     match read(name, None)? {
         Read::Drawing(it) => Ok(*it),
         Read::Map { .. } => Err(Failure::new(format!("{} is a map, without places", quoted(name)))
-            .help("give `office`, or a drawing: `cotama new floor NAME` begins one")),
+            .help("give `office`, `clinic` or a drawing: `cotama new floor NAME` begins one")),
     }
 }
 
-/// The floor that comes with the program.
-const OFFICE: &str = "office";
-
 /// The floor of a name, or in a file; warnings of a map go to the screen.
 fn read(name: &str, screen: Option<&Screen>) -> Result<Read, Failure> {
-    if name == OFFICE {
-        return Ok(Read::Drawing(Box::new(embedded::OFFICE.floor()?)));
+    if let Some(it) = embedded::named(name) {
+        return Ok(Read::Drawing(Box::new(it.floor()?)));
     }
     let end = Path::new(name).extension().map(|it| it.to_string_lossy().to_lowercase());
     match end.as_deref() {
@@ -129,8 +126,9 @@ fn read(name: &str, screen: Option<&Screen>) -> Result<Read, Failure> {
             let text = kind::text(name, "a floor", FLOOR_BYTES, &[Kind::Floor])?;
             Ok(Read::Drawing(Box::new(Floor::parse(input::name(name), &text)?)))
         }
-        _ => Err(Failure::new(format!("there is no floor {}", quoted(name)))
-            .help("give `office`, FILE.toml (`cotama new floor NAME` begins one) or FILE.yaml")),
+        _ => Err(Failure::new(format!("there is no floor {}", quoted(name))).help(
+            "give `office`, `clinic`, FILE.toml (`cotama new floor NAME` begins one) or FILE.yaml",
+        )),
     }
 }
 

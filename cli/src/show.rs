@@ -12,7 +12,7 @@ use cotama_models::robots;
 /// strings and comments is escaped.
 pub(crate) fn show(args: &MissionArg) -> Result<Exit, Failure> {
     let robot = robots::embedded(&args.mission).map(|it| it.text);
-    let floor = (args.mission == "office").then_some(cotama_floor::embedded::OFFICE.text);
+    let floor = cotama_floor::embedded::named(&args.mission).map(|it| it.text);
     let text = match (robot.or(floor).map(str::to_owned), Chosen::of(&args.mission)?) {
         (Some(text), _) => text,
         (None, Some(team)) => team.text(),

@@ -6,9 +6,9 @@ use clap::Args;
 use std::path::PathBuf;
 
 pub(crate) const FLOOR_EXAMPLES: &str = "\
-A floor is `office`, which comes with the program, a drawing of yours (FILE.toml, `cotama new floor`
-begins one), or a map of ROS (FILE.yaml with its image, read as Nav2 reads them). A place is one of
-the drawing, or X,Y in mm from its left lower corner; of a map, in the coordinates of its origin.
+A floor is `office` or `clinic`, which come with the program, a drawing of yours (FILE.toml, `cotama
+new floor` begins one), or a map of ROS (FILE.yaml with its image, read as Nav2 reads them). A place
+is one of the drawing, or X,Y in mm from its left lower corner; of a map, in the coordinates of its origin.
 
 Exit codes: 0 there is a path, or none is asked for; 1 there is none; 2 bad input.
 
@@ -21,7 +21,7 @@ Examples:
 
 #[derive(Args, Debug)]
 pub(crate) struct FloorArgs {
-    /// The floor: `office`, a drawing (.toml) or a map of ROS (.yaml)
+    /// The floor: `office`, `clinic`, a drawing (.toml) or a map of ROS (.yaml)
     pub(crate) floor: String,
     /// Plans a path that begins here
     #[arg(long, value_name = "PLACE", requires = "to")]

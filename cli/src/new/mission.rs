@@ -4,7 +4,7 @@
 use crate::exit::Failure;
 use crate::floor;
 use crate::mission;
-use cotama_floor::{Floor, Ground, Needs};
+use cotama_floor::{Floor, Ground, Needs, embedded};
 use cotama_models::missions::Asked;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -30,7 +30,8 @@ pub(super) fn text(
     let events = failure.map(|it| format!("[run]\n{}", events.replace("FAILURE", it)));
     let text = text + &events.unwrap_or_default();
     let Some(name) = floor else { return Ok(text) };
-    let path = if name == "office" { name.to_owned() } else { beside(name, folder) };
+    let is_ours = embedded::named(name).is_some();
+    let path = if is_ours { name.to_owned() } else { beside(name, folder) };
     let needs = Needs { radius_m: body.radius.0 as f64 / 1_000.0, ..Needs::default() };
     over(&text, &path, &floor::drawing(name)?, needs)
 }

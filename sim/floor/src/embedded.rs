@@ -1,4 +1,4 @@
-//! The floor that ships.
+//! The floors that ship.
 
 use crate::floor::Floor;
 use cotama_models::missions::MissionErrors;
@@ -30,3 +30,35 @@ impl Embedded {
 /// ```
 pub const OFFICE: Embedded =
     Embedded { name: "office.toml", text: include_str!("../floors/office.toml") };
+
+/// A floor of a clinic of 72 m x 47 m: a corridor around a court, wards, a lift lobby, bays with a
+/// docking station, a rack and a packing station, and QR marks.
+///
+/// From the dock to the rack, on to the packing station and back are 60 m each for a robot of
+/// 260 mm, as in the mission `shift`.
+///
+/// ```
+/// use cotama_floor::{Ground, Needs, embedded};
+/// use cotama_models::missions::Asked;
+/// let clinic = embedded::CLINIC.floor().unwrap();
+/// let to = ["rack", "packing station", "dock"].map(str::to_owned).to_vec();
+/// let asked = Asked { from: "dock".into(), to, ..Asked::default() };
+/// let text = embedded::CLINIC.text;
+/// let way = Ground::Drawing(&clinic).way("clinic", text, asked, Needs::default());
+/// let lengths: Vec<_> = way.legs.iter().map(|it| it.as_ref().unwrap().length.0).collect();
+/// assert_eq!(lengths, [60_000; 3]);
+/// ```
+pub const CLINIC: Embedded =
+    Embedded { name: "clinic.toml", text: include_str!("../floors/clinic.toml") };
+
+/// Returns the floor that ships by a name, as `office`.
+///
+/// ```
+/// use cotama_floor::embedded;
+/// assert_eq!(embedded::named("clinic"), Some(embedded::CLINIC));
+/// assert_eq!(embedded::named("clinic.toml"), None); // a file of this name
+/// ```
+pub fn named(name: &str) -> Option<Embedded> {
+    let is_it = |it: &Embedded| it.name.strip_suffix(".toml") == Some(name);
+    [OFFICE, CLINIC].into_iter().find(is_it)
+}
