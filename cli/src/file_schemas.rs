@@ -5,6 +5,7 @@
 //! together: that objectives follow each other, say, only the reader finds out.
 
 mod parts;
+mod people;
 mod robot;
 
 pub(crate) use robot::robot as robot_file;
@@ -13,13 +14,13 @@ use cotama_core::hardware::{MAX_KINDS, MAX_UNITS};
 use cotama_models::missions::faults::{self, Adapts, FIDELITIES, OUTCOMES};
 use cotama_models::missions::known::{
     ALLOCATORS, AT_LEAST_ZERO, COUNTS, ENERGIES, EVENTS, INCIDENTS, NAME_LENGTHS, NEEDED_UNITS,
-    OBJECTIVES, PER_KM, PERIODS, POSITIVE, POWER_ERRORS, QUALITIES, RANDOM_EVENTS, ROUNDINGS,
-    SEARCHES, SPEEDS, UNITS,
+    OBJECTIVES, PEOPLE, PER_KM, PERIODS, POSITIVE, POWER_ERRORS, QUALITIES, RANDOM_EVENTS,
+    ROUNDINGS, SEARCHES, SPEEDS, UNITS,
 };
 use cotama_models::missions::{self, AXES};
 use parts::{
-    absent, both, choice, choices, id, integer, named, only, says, table, tables, text, when, with,
-    word,
+    absent, both, choice, choices, id, integer, named, names, only, says, table, tables, text,
+    when, with, word,
 };
 use serde_json::{Value, json};
 
@@ -51,6 +52,8 @@ fn mission_of_robot() -> Value {
         ("from", text("beside `floor`: the place at which the mission starts, or X,Y in mm")),
         ("open", names("beside `floor`: doors that are open")),
         ("close", names("beside `floor`: doors that are closed")),
+        ("people", integer(&PEOPLE, "beside `floor`: how many people the seed draws")),
+        ("person", people::person()),
         ("tio", tables(&tio(false), 0, "ways to do a task for which the robot stands")),
         ("zone", tables(&zone(true), 0, "what holds in a part of the path")),
         ("plan", plan()),
@@ -69,14 +72,9 @@ fn mission_of_robot() -> Value {
         },
     });
     let on_floor = both(&on_floor, &absent(&["path_length_mm"]));
-    let line = both(&line, &absent(&["from", "open", "close"]));
+    let line = both(&line, &absent(&["from", "open", "close", "people", "person"]));
     let rule = json!({ "if": { "required": ["floor"] }, "then": on_floor, "else": line });
     with(file, "allOf", json!([rule]))
-}
-
-/// A list of names.
-fn names(meaning: &str) -> Value {
-    json!({ "type": "array", "items": { "type": "string" }, "description": meaning })
 }
 
 fn plain_mission() -> Value {

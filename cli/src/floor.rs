@@ -164,6 +164,7 @@ fn found(
         open: args.open.clone(),
         close: args.close.clone(),
         zones: all.iter().map(|it| it.name.clone()).collect(),
+        people: Vec::new(),
     };
     let way = read.ground().way(&args.floor, "", asked, needs(args.radius));
     way.doors?;

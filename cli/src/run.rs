@@ -65,6 +65,13 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
             count(number as u64, "fault")
         )),
     }
+    let people = mission.people.drawn + mission.people.walkers.len();
+    if people > 0 && args.fidelity == Fidelity::Line {
+        let people = if people == 1 { "1 person".into() } else { format!("{people} people") };
+        screen.note(&format!(
+            "not simulated on a line: {people} of the mission; --fidelity plane has them"
+        ));
+    }
     let (trace, run) = match Trace::record(&mission, &options) {
         Ok(recorded) => recorded,
         Err(RecordError::Infeasible { reason, text }) => {

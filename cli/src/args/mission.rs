@@ -76,7 +76,8 @@ pub(crate) struct RunArgs {
     /// How closely the robot is modelled; `plane` is for robots with a file
     #[arg(long, value_enum, value_name = "HOW", default_value_t = Fidelity::Line)]
     pub(crate) fidelity: Fidelity,
-    /// How many people walk between the places of the floor, in the plane; the seed draws them
+    /// How many people walk between the places of the floor, in the plane, in place of `people` of
+    /// the mission; the seed draws them
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole(0, 1_000))]
     pub(crate) people: u64,
     /// The folder of the report, `index.html` [default: report/NAME]

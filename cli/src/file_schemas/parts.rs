@@ -32,6 +32,11 @@ pub(super) fn choices(words: &[&str], meaning: &str) -> Value {
     json!({ "type": "array", "items": items, "minItems": 1, "description": meaning })
 }
 
+/// A list of names.
+pub(super) fn names(meaning: &str) -> Value {
+    json!({ "type": "array", "items": { "type": "string" }, "description": meaning })
+}
+
 fn id_pattern() -> String {
     format!("^[A-Za-z0-9_.-]{{{},{}}}$", ID_LENGTHS.start(), ID_LENGTHS.end())
 }

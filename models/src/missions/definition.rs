@@ -2,6 +2,7 @@
 
 use super::diagnostic::Spanned;
 use super::faults::Run;
+use super::people::People;
 use super::terms::{MotionPower, PlannedFor};
 use super::under::Under;
 use super::way::Way;
@@ -312,6 +313,8 @@ pub struct Definition {
     pub under: Option<Under>,
     /// The way over a floor that it takes, if it names one.
     pub way: Option<Way>,
+    /// The people on that floor.
+    pub people: People,
     /// How the mission is run by a simulator.
     pub run: Run,
 }

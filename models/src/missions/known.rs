@@ -31,6 +31,14 @@ pub const PER_KM: RangeInclusive<i64> = 1..=1000;
 pub const NAME_LENGTHS: RangeInclusive<usize> = 1..=100;
 /// How many characters an id has.
 pub const ID_LENGTHS: RangeInclusive<usize> = 1..=crate::names::MAX_ID;
+/// People who walk where a seed draws.
+pub const PEOPLE: RangeInclusive<i64> = 0..=1_000;
+/// Speeds of people in mm/s: up to that of a runner.
+pub const WALKING_SPEEDS: RangeInclusive<i64> = 100..=10_000;
+/// The most people of whom a mission says where they walk.
+pub const MAX_PERSONS: usize = 100;
+/// The most places between which a person walks.
+pub const MAX_WALKS: usize = 16;
 /// The most entries of one list or table.
 pub const MAX_ENTRIES: usize = 1000;
 

@@ -24,6 +24,8 @@ mod lowering;
 #[cfg(feature = "std")]
 mod mission;
 #[cfg(feature = "std")]
+mod people;
+#[cfg(feature = "std")]
 pub(crate) mod reader;
 #[cfg(feature = "std")]
 mod remaining;
@@ -49,6 +51,8 @@ pub use definition::{
 pub use diagnostic::{Diagnostic, MAX_DIAGNOSTICS, MissionErrors, Position, Spanned, told_with};
 #[cfg(feature = "std")]
 pub use mission::{FORMAT, Mission, Unfolded};
+#[cfg(feature = "std")]
+pub use people::{People, Walker};
 #[cfg(feature = "std")]
 pub use remaining::Remaining;
 #[cfg(feature = "std")]

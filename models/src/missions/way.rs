@@ -5,6 +5,7 @@
 //! along its path. [`Asked::of`] reads the names, whoever has the floor plans the [`Way`] between
 //! them, and the reader of missions makes lengths of it: all that follows stays on the path.
 
+use super::known::MAX_PERSONS;
 use super::under::second;
 use cotama_core::units::Millimetres;
 use std::ops::Range;
@@ -40,6 +41,8 @@ pub struct Asked {
     pub close: Vec<String>,
     /// Zones of the floor that the mission names.
     pub zones: Vec<String>,
+    /// The places between which each person walks.
+    pub people: Vec<Vec<String>>,
 }
 
 impl Asked {
@@ -49,11 +52,12 @@ impl Asked {
     pub fn of(text: &str) -> Option<Self> {
         let file = second(text)?;
         let word = |table: &toml::Table, key: &str| Some(table.get(key)?.as_str()?.to_owned());
-        let words = |key: &str| {
-            let all = file.get(key).and_then(|it| it.as_array());
+        let words_of = |table: &toml::Table, key: &str| {
+            let all = table.get(key).and_then(|it| it.as_array());
             let all = all.into_iter().flatten();
             all.filter_map(|it| it.as_str().map(str::to_owned)).collect::<Vec<_>>()
         };
+        let words = |key: &str| words_of(&file, key);
         let tables = |key: &str| {
             let all = file.get(key).and_then(|it| it.as_array());
             all.into_iter().flatten().filter_map(|it| it.as_table())
@@ -69,6 +73,7 @@ impl Asked {
                 .filter(of_floor)
                 .filter_map(|it| word(it, "on_floor").or_else(|| word(it, "id")))
                 .collect(),
+            people: tables("person").take(MAX_PERSONS).map(|it| words_of(it, "walks")).collect(),
         })
     }
 }
@@ -112,6 +117,9 @@ pub struct Way {
     pub legs: Vec<Result<Leg, NoLeg>>,
     /// The parts of the whole path, in mm, inside each zone of [`Asked::zones`].
     pub zones: Vec<Result<Vec<Range<u64>>, Refusal>>,
+    /// The way to each place of each person of [`Asked::people`] from the one before; to the first
+    /// one from the last.
+    pub people: Vec<Vec<Result<Leg, NoLeg>>>,
 }
 
 /// The way from one place to the next.

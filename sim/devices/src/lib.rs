@@ -91,7 +91,7 @@ pub use faults::{Faults, MAX_FAULTS};
 pub use gyro::{Gyro, GyroSettings};
 pub use laser::{Laser, LaserSettings, MAX_RAYS};
 pub use link::{Link, LinkSettings, MAX_ACCESS_POINTS};
-pub use people::{Habits, MAX_PEOPLE, People, STEP};
+pub use people::{Goes, Habits, MAX_PEOPLE, People, STEP, Walker};
 pub use ring::{MAX_CONE_RAYS, MAX_SONARS, Ring, RingSettings};
 pub use routes::{MAX_PLACES, Routes};
 pub use scene::{Disc, Scene};

@@ -7,6 +7,7 @@ use core::ops::RangeInclusive;
 use cotama_core::units::Millis;
 use cotama_floor::{Path, Point, Vector};
 use cotama_streams::{Stream, Streams};
+use std::sync::Arc;
 
 /// The time between two decisions of a person.
 pub const STEP: Millis = Millis(100);
@@ -54,6 +55,17 @@ impl Default for Habits {
     }
 }
 
+impl Habits {
+    fn sound(&self) -> Result<(), SettingsError> {
+        within("the radius of a person in m", self.radius_m, 0.01, 10.0)?;
+        let (slow, fast) = (*self.speed_m_s.start(), *self.speed_m_s.end());
+        within("the least speed in m/s", slow, 0.001, 100.0)?;
+        within("the largest speed in m/s", fast, slow, 100.0)?;
+        within("the chance to stop", self.stops, 0.0, 1.0)?;
+        within("the gap in m", self.gap_m, 0.0, 100.0)
+    }
+}
+
 /// People who walk between places, at speeds and for times that are drawn.
 ///
 /// *The rule.* A person walks along the way to a place that is drawn, stays there for a time, and
@@ -76,18 +88,59 @@ impl Default for Habits {
 /// let discs = people.advance(Millis(60_000), &[]);
 /// assert!(discs.iter().all(|it| (0.0..=20.0).contains(&it.centre.x)));
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct People {
-    habits: Habits,
-    routes: Routes,
     all: Vec<Person>,
     discs: Vec<Disc>,
     /// The time of the last decision.
     decided: Option<Millis>,
 }
 
+/// A person who walks a round: from place to place in their order, and from the last to the first.
+#[derive(Clone, Debug)]
+pub struct Walker {
+    /// Names the random numbers of this person.
+    pub name: String,
+    /// Habits and ways.
+    pub goes: Arc<Goes>,
+    /// The time of the first walk.
+    pub from: Millis,
+}
+
+/// The ways of people, and their habits.
+#[derive(Clone, Debug)]
+pub struct Goes {
+    habits: Habits,
+    routes: Routes,
+    /// Whether each place is followed by the next one, and none is drawn.
+    is_round: bool,
+}
+
+impl Goes {
+    /// A round through all places.
+    ///
+    /// # Errors
+    /// Numbers that are out of range.
+    pub fn round(habits: Habits, routes: Routes) -> Result<Self, SettingsError> {
+        habits.sound()?;
+        Ok(Self { habits, routes, is_round: true })
+    }
+
+    /// Returns the place to go to from a place, as it is drawn or in the order of a round.
+    fn next(&self, place: usize, chance: &mut Stream) -> Option<usize> {
+        let count = self.routes.from(place).count() as u64;
+        let drawn = chance.below(count) as usize;
+        if !self.is_round {
+            return self.routes.from(place).nth(drawn);
+        }
+        let next = if place + 1 < self.routes.places().len() { place + 1 } else { 0 };
+        self.routes.way(place, next).map(|_| next)
+    }
+}
+
 #[derive(Clone, Debug)]
 struct Person {
+    goes: Arc<Goes>,
     chance: Stream,
     doing: Doing,
     /// Since when a robot hinders, or is close.
@@ -132,24 +185,47 @@ impl People {
         name: &str,
     ) -> Result<Self, SettingsError> {
         within("the number of people", count as f64, 0.0, MAX_PEOPLE as f64)?;
-        within("the radius of a person in m", habits.radius_m, 0.01, 10.0)?;
-        let (slow, fast) = (*habits.speed_m_s.start(), *habits.speed_m_s.end());
-        within("the least speed in m/s", slow, 0.001, 100.0)?;
-        within("the largest speed in m/s", fast, slow, 100.0)?;
-        within("the chance to stop", habits.stops, 0.0, 1.0)?;
-        within("the gap in m", habits.gap_m, 0.0, 100.0)?;
+        habits.sound()?;
+        let goes = Arc::new(Goes { habits: habits.clone(), routes, is_round: false });
+        let routes = &goes.routes;
         let person = |number: usize| {
             let mut chance = streams.stream(&format!("{name} {number}"));
             let place = chance.below(routes.places().len() as u64) as usize;
             let at = routes.places().get(place).copied().unwrap_or_default();
             let until = time(&mut chance, &habits.stays);
             let doing = Doing::Stays { place, until };
-            Person { chance, doing, hindered: None, tries: 0, from: at, to: at }
+            Person { goes: goes.clone(), chance, doing, hindered: None, tries: 0, from: at, to: at }
         };
         let all: Vec<_> = (0..count).map(person).collect();
         let disc = |it: &Person| Disc { centre: it.from, radius: habits.radius_m };
         let discs = all.iter().map(disc).collect();
-        Ok(Self { habits: habits.clone(), routes, all, discs, decided: None })
+        Ok(Self { all, discs, decided: None })
+    }
+
+    /// Adds a person who walks a round, and is in its first place.
+    ///
+    /// ```
+    /// use cotama_core::units::Millis;
+    /// use cotama_devices::{Goes, Habits, People, Routes, Streams, Walker};
+    /// use cotama_floor::{Path, Point};
+    /// let hall = [[0.0, 0.0], [20.0, 0.0]].map(Point::from);
+    /// let routes = Routes::by(&hall, |from, to| Path::new(vec![from, to])).unwrap();
+    /// let habits = Habits { speed_m_s: 1.0..=1.0, stops: 0.0, ..Habits::default() };
+    /// let goes = Goes::round(habits, routes).unwrap().into();
+    /// let mut people = People::default();
+    /// let walker = Walker { name: "Anna".into(), goes, from: Millis(3_000) };
+    /// people.join(&walker, &Streams::new(7));
+    /// let mut at = |ms| people.advance(Millis(ms), &[])[0].centre.x;
+    /// assert_eq!([at(3_000), at(5_000)], [0.0, 2.0]);
+    /// ```
+    pub fn join(&mut self, walker: &Walker, streams: &Streams) {
+        let Walker { name, goes, from } = walker;
+        let at = goes.routes.places().first().copied().unwrap_or_default();
+        let doing = Doing::Stays { place: 0, until: *from };
+        let chance = streams.stream(&format!("person {name}"));
+        let goes = goes.clone();
+        self.discs.push(Disc { centre: at, radius: goes.habits.radius_m });
+        self.all.push(Person { goes, chance, doing, hindered: None, tries: 0, from: at, to: at });
     }
 
     /// Moves those who overlap a robot beside it: for a robot that is put among people.
@@ -167,7 +243,7 @@ impl People {
     /// ```
     pub fn make_room(&mut self, robot: &Disc) {
         for (disc, person) in self.discs.iter_mut().zip(&mut self.all) {
-            person.to = beside(robot, person.to, self.habits.radius_m);
+            person.to = beside(robot, person.to, disc.radius);
             (person.from, disc.centre) = (person.to, person.to);
         }
     }
@@ -185,7 +261,8 @@ impl People {
         for step in first.max(last.saturating_sub(MAX_STEPS))..=last {
             let now = Millis(step * STEP.0);
             for person in &mut self.all {
-                person.decide(now, &self.habits, &self.routes, robots);
+                let goes = person.goes.clone();
+                person.decide(now, &goes, robots);
             }
             self.decided = Some(now);
         }
@@ -200,7 +277,8 @@ impl People {
 
 impl Person {
     /// Decides at a time where to be a step later.
-    fn decide(&mut self, now: Millis, habits: &Habits, routes: &Routes, robots: &[Disc]) {
+    fn decide(&mut self, now: Millis, goes: &Goes, robots: &[Disc]) {
+        let Goes { habits, routes, .. } = goes;
         self.from = self.to;
         let here = Disc { centre: self.from, radius: habits.radius_m };
         let is_close = robots.iter().any(|it| it.gap(&here) < habits.gap_m);
@@ -211,7 +289,7 @@ impl Person {
         let is_patient = self.is_patient(is_close, now, habits);
         match self.doing {
             Doing::Stays { place, until } if until <= now || !is_patient => {
-                self.set_off(place, now, habits, routes, robots);
+                self.set_off(place, now, goes, robots);
             }
             Doing::Walks { mut walk, stands: Some(until) } if until <= now || !is_patient => {
                 self.hindered = None;
@@ -233,21 +311,13 @@ impl Person {
     }
 
     /// Leaves a place for another that is drawn; stays on where no way begins.
-    fn set_off(
-        &mut self,
-        place: usize,
-        now: Millis,
-        habits: &Habits,
-        routes: &Routes,
-        robots: &[Disc],
-    ) {
+    fn set_off(&mut self, place: usize, now: Millis, goes: &Goes, robots: &[Disc]) {
+        let Goes { habits, routes, .. } = goes;
         self.hindered = None;
-        let count = routes.from(place).count() as u64;
-        let drawn = self.chance.below(count) as usize;
+        let to = goes.next(place, &mut self.chance);
         let speeds = &habits.speed_m_s;
         let speed = speeds.start() + self.chance.part() * (speeds.end() - speeds.start());
         let (stops, after) = (self.chance.part() < habits.stops, self.chance.part());
-        let to = routes.from(place).nth(drawn);
         let Some((to, way)) = to.and_then(|to| Some((to, routes.way(place, to)?))) else {
             let until = time(&mut self.chance, &habits.stays);
             self.doing = Doing::Stays { place, until: Millis(now.0.saturating_add(until.0)) };

@@ -66,4 +66,4 @@ pub use path::{Path, Projection};
 pub use route::{Needs, Planner, RouteError};
 pub use segments::{MAX_SEGMENTS, MAX_SIZE_M, MAX_SOLIDS, Segment, Segments, SegmentsError};
 pub use surface::{Footprint, Hit, Kind, Sense, Surface};
-pub use way::Ground;
+pub use way::{Ground, PERSON_RADIUS_M};

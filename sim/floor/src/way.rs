@@ -1,15 +1,19 @@
 //! The way of a mission over a floor: answers to the names that the mission says.
 
-use crate::floor::{Floor, Version, metres};
+use crate::floor::{Floor, Version};
 use crate::geometry::Point;
 use crate::grid::Grid;
 use crate::path::Path;
-use crate::route::{Needs, Planner, RouteError};
+use crate::route::{Needs, Planner};
 use crate::surface::Surface;
-use cotama_core::units::Millimetres;
 use cotama_models::missions::{Asked, Leg, NoLeg, Refusal, Way};
-use cotama_models::reading::{quoted, unknown};
+use places::{known, leg, no_path, place};
 use std::ops::Range;
+
+mod places;
+mod walks;
+
+pub use walks::PERSON_RADIUS_M;
 
 /// A floor that missions go over.
 #[derive(Clone, Copy, Debug)]
@@ -43,14 +47,14 @@ impl Ground<'_> {
             Self::Drawing(floor) => of_drawing(floor, &asked, needs),
             Self::Map(grid) => of_map(grid, &asked, needs),
         };
-        let Answer { start, doors, paths, zones } = answer;
+        let Answer { start, doors, paths, zones, people } = answer;
         // A map is held as its cells: its own text names an image, which is another file.
         let text = match self {
             Self::Drawing(_) => text.into(),
             Self::Map(grid) => grid.to_text().into(),
         };
         let legs = paths.into_iter().map(|it| it.map(|it| leg(&it))).collect();
-        Way { source: source.to_owned(), text, asked, start, doors, legs, zones }
+        Way { source: source.to_owned(), text, asked, start, doors, legs, zones, people }
     }
 }
 
@@ -88,6 +92,7 @@ struct Answer {
     doors: Result<(), Refusal>,
     paths: Vec<Result<Path, NoLeg>>,
     zones: Vec<Result<Vec<Range<u64>>, Refusal>>,
+    people: Vec<Vec<Result<Leg, NoLeg>>>,
 }
 
 fn of_drawing(floor: &Floor, asked: &Asked, needs: Needs) -> Answer {
@@ -104,7 +109,16 @@ fn of_drawing(floor: &Floor, asked: &Asked, needs: Needs) -> Answer {
         None => Err(known("zone", name, floor.zones.iter().map(|it| it.name.as_str()))),
     };
     let zones = asked.zones.iter().map(zone).collect();
-    Answer { start: place(Some(&floor), &asked.from).map(|_| ()), doors, paths, zones }
+    let people = if asked.people.is_empty() {
+        Vec::new()
+    } else {
+        match floor.surface(Version::Real, &[]) {
+            Ok(surface) => walks::all(&surface, Some(&floor), asked, needs.radius_m),
+            Err(why) => walks::none(asked, &why.to_string()),
+        }
+    };
+    let start = place(Some(&floor), &asked.from).map(|_| ());
+    Answer { start, doors, paths, zones, people }
 }
 
 fn of_map(grid: &Grid, asked: &Asked, needs: Needs) -> Answer {
@@ -116,7 +130,8 @@ fn of_map(grid: &Grid, asked: &Asked, needs: Needs) -> Answer {
     let zone = |_| Err(Refusal::new("a map has no zones").help("give `x_start_mm` and `x_end_mm`"));
     let zones = asked.zones.iter().map(zone).collect();
     let paths = paths(grid, None, asked, needs);
-    Answer { start: place(None, &asked.from).map(|_| ()), doors, paths, zones }
+    let people = walks::all(grid, None, asked, needs.radius_m);
+    Answer { start: place(None, &asked.from).map(|_| ()), doors, paths, zones, people }
 }
 
 /// No path to any place, for one reason.
@@ -140,60 +155,10 @@ fn paths(
     let path = |(from, to): (&String, &String)| {
         let goal = place(floor, to).map_err(NoLeg::Goal)?;
         let start = place(floor, from).map_err(|_| NoLeg::Start)?;
-        planner.route(start, goal).map_err(|why| no_path(why, floor, [from, to], needs))
+        let refused = |why| no_path(why, floor, [from, to], needs.radius_m, "robot");
+        planner.route(start, goal).map_err(refused)
     };
     from.zip(&asked.to).map(path).collect()
-}
-
-/// Says why there is no way.
-fn no_path(why: RouteError, floor: Option<&Floor>, [from, to]: [&str; 2], needs: Needs) -> NoLeg {
-    let mm = |it: f64| (it * 1_000.0).round();
-    let no_room = |at: &str, room: f64| {
-        // Less than the radius is free, also when it is rounded.
-        let (radius, room, at) = (mm(needs.radius_m), (room * 1_000.0).floor(), quoted(at));
-        let message =
-            format!("a robot of {radius} mm radius has no room at {at}: {room} mm are free");
-        NoLeg::Path { message, closed: Vec::new() }
-    };
-    match why {
-        RouteError::Start(room) => no_room(from, room),
-        RouteError::Goal(room) => no_room(to, room),
-        RouteError::None(_) => {
-            let closed = floor.into_iter().flat_map(|it| &it.doors).filter(|it| !it.is_open);
-            let closed = closed.map(|it| it.name.clone()).collect();
-            let [from, to] = [from, to].map(quoted);
-            let message = format!("nothing leads from {from} to {to} for this robot");
-            NoLeg::Path { message, closed }
-        }
-        RouteError::Needs(_) | RouteError::Field(_) => NoLeg::Floor(Refusal::new(why.to_string())),
-    }
-}
-
-/// The place of this name, or at `X,Y` in mm.
-fn place(floor: Option<&Floor>, name: &str) -> Result<Point, Refusal> {
-    if let Some(it) = floor.and_then(|it| it.place(name)) {
-        return Ok(metres(it.at));
-    }
-    let numbers = name.split_once(',').map(|(x, y)| (x.trim().parse::<i32>(), y.trim().parse()));
-    if let Some((Ok(x), Ok(y))) = numbers {
-        return Ok(metres([x, y]));
-    }
-    let Some(floor) = floor else {
-        let it = Refusal::new(format!("{} is no place of a map", quoted(name)));
-        return Err(it.help("write X,Y in mm, as 1500,-2000"));
-    };
-    Err(known("place", name, floor.places.iter().chain(&floor.docks).map(|it| it.name.as_str())))
-}
-
-fn known<'n>(what: &str, name: &str, all: impl Iterator<Item = &'n str> + Clone) -> Refusal {
-    let (message, help) = unknown(what, name, all);
-    Refusal::new(message).help(help)
-}
-
-fn leg(path: &Path) -> Leg {
-    let mm = |it: f64| (it * 1_000.0).round() as i32;
-    let points = path.points().iter().map(|it| [mm(it.x), mm(it.y)]).collect();
-    Leg { points, length: Millimetres(path.length_mm()) }
 }
 
 /// The parts of all paths, one after the other, inside a polygon: in mm.

@@ -71,6 +71,7 @@ pub fn along(length: Millimetres) -> Option<Way> {
         doors: Ok(()),
         legs: vec![Ok(leg)],
         zones: Vec::new(),
+        people: Vec::new(),
     })
 }
 

@@ -2,8 +2,9 @@
 
 use crate::corridors;
 use crate::drivetrain::{Drivetrain, SPARE};
+use crate::people;
 use crate::track::Track;
-use cotama_devices::{Habits, People, Routes, SettingsError, Streams};
+use cotama_devices::{Habits, People, Routes, SettingsError, Streams, Walker};
 use cotama_floor::{Floor, Held, Needs, Planner, Point, Pose, Surface, metres};
 use cotama_models::missions::{Leg, Mission, Way};
 use std::fmt;
@@ -18,7 +19,9 @@ pub struct Course {
     drivetrain: Drivetrain,
     track: Track,
     back: Track,
-    people: Option<(usize, Routes)>,
+    /// The people whom a seed draws, and those who walk as the mission says.
+    drawn: Option<(usize, Routes)>,
+    walkers: Vec<Walker>,
 }
 
 /// The room around a robot from which it cuts corners, in metres.
@@ -106,7 +109,7 @@ fn is_free(points: &[[i32; 2]], surface: &dyn Surface, drivetrain: &Drivetrain) 
 impl Course {
     /// Returns the course of a mission. One that names no floor goes along
     /// [corridors](corridors::along) as long as its path. So many people walk between the places of
-    /// the floor.
+    /// the floor, or as many as the mission says, beside those whom it names.
     ///
     /// # Errors
     /// A [`NoCourse`] where no robot could drive.
@@ -129,7 +132,11 @@ impl Course {
             return Err(NoCourse::Start);
         }
         let back = track.back(&drivetrain);
-        let course = Self { way, real, charted, drivetrain, track, back, people: None };
+        let of = &mission.people;
+        let walkers = of.walkers.iter().map(people::walker).collect::<Result<_, _>>();
+        let walkers = walkers.map_err(|it| NoCourse::People(it.to_string()))?;
+        let course = Self { way, real, charted, drivetrain, track, back, drawn: None, walkers };
+        let people = if people == 0 { of.drawn } else { people };
         if people == 0 { Ok(course) } else { course.among(people) }
     }
 
@@ -145,7 +152,7 @@ impl Course {
         }
         let places = places.get(..places.len().min(PEOPLE_PLACES)).unwrap_or_default();
         let routes = Routes::plan(&planner, places).map_err(|it| why(&it))?;
-        let course = Self { people: Some((count, routes)), ..self };
+        let course = Self { drawn: Some((count, routes)), ..self };
         course.people(0).map_err(|it| why(&it))?;
         Ok(course)
     }
@@ -168,9 +175,16 @@ impl Course {
 
     /// Returns the people of a run with this seed, where they are at its start.
     pub(crate) fn people(&self, seed: u64) -> Result<Option<People>, SettingsError> {
-        let Some((count, routes)) = &self.people else { return Ok(None) };
         let streams = Streams::new(seed);
-        People::new(*count, &Habits::default(), routes.clone(), &streams, "people").map(Some)
+        let mut people = match &self.drawn {
+            None if self.walkers.is_empty() => return Ok(None),
+            None => People::default(),
+            Some((count, routes)) => {
+                People::new(*count, &Habits::default(), routes.clone(), &streams, "people")?
+            }
+        };
+        self.walkers.iter().for_each(|it| people.join(it, &streams));
+        Ok(Some(people))
     }
 
     /// Returns the floor and the way over it.

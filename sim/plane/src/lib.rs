@@ -29,6 +29,7 @@ mod fault;
 mod follower;
 mod motors;
 mod odometry;
+mod people;
 mod rover;
 mod track;
 mod vehicle;

@@ -34,6 +34,8 @@ pub struct Rover<'c> {
     things: Vec<Disc>,
     /// The pose of its odometry's origin as it believes; `None` where it knows its pose.
     belief: Option<Pose>,
+    /// Whether somebody who leads it looks out for people.
+    is_led: bool,
     /// The speeds that avoidance wants in place of those along the path.
     steers: Option<Command>,
     /// The time since the start.
@@ -83,6 +85,7 @@ impl<'c> Rover<'c> {
             people,
             things: Vec::new(),
             belief: None,
+            is_led: false,
             steers: None,
             now: Millis(0),
         }
@@ -160,6 +163,11 @@ impl<'c> Rover<'c> {
     /// odometry, and looks out for nobody by itself.
     pub fn believe(&mut self, origin: Pose) {
         self.belief = Some(origin);
+    }
+
+    /// Lets somebody lead it, or nobody any more: who leads it sees people, and brakes before them.
+    pub fn lead(&mut self, is_led: bool) {
+        self.is_led = is_led;
     }
 
     /// Goes with these speeds from now on, where it is to move, and not along its path.
@@ -247,7 +255,8 @@ impl<'c> Rover<'c> {
         self.now.0 += time.0;
         let towards = towards.0 as f64 / 1_000.0;
         let slowed = if self.people.is_some() { self.among_people(towards) } else { towards };
-        let towards = if self.belief.is_some() { towards } else { slowed };
+        let is_blind = self.belief.is_some() && !self.is_led;
+        let towards = if is_blind { towards } else { slowed };
         let on_path = self.aside == Aside::No && self.owed.0 == 0;
         let mut steps = time.0.div_ceil(10);
         if self.drive.is_off() || (end.0 <= self.x.0 && on_path) {

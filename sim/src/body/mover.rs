@@ -249,6 +249,7 @@ impl Sensing<'_> {
             (false, true) => self.uses.fastest,
             (false, false) => told,
         };
+        self.rover.lead(self.uses.is_led);
         self.rover.go(towards, end, time);
         self.senses.sense(&mut self.rover, self.uses, told, time);
     }

@@ -18,6 +18,9 @@ pub struct FloorText {
     /// The zones that the mission names, with the parts of the path in each, in mm.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub zones: Vec<(String, Vec<(u64, u64)>)>,
+    /// The ways of the people whom the mission names.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub people: Vec<Vec<LegText>>,
 }
 
 /// The way from one place to the next.
@@ -43,6 +46,7 @@ impl FloorText {
             text: way.text.to_string(),
             legs: way.legs.iter().flatten().map(leg).collect(),
             zones: zones.filter_map(zone).collect(),
+            people: way.people.iter().map(|it| it.iter().flatten().map(leg).collect()).collect(),
         }
     }
 
@@ -64,6 +68,7 @@ impl FloorText {
             doors: Ok(()),
             legs: self.legs.iter().map(leg).collect(),
             zones: asked.zones.iter().map(zone).collect(),
+            people: self.people.iter().map(|it| it.iter().map(leg).collect()).collect(),
             asked,
         }
     }

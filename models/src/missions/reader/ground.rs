@@ -4,7 +4,7 @@ use super::entry::Entry;
 use super::fields::Fields;
 use crate::missions::definition::Zone;
 use crate::missions::diagnostic::{Diagnostic, Spanned};
-use crate::missions::way::{Refusal, Way};
+use crate::missions::way::{Leg, NoLeg, Refusal, Way};
 use cotama_core::units::Millimetres;
 
 /// Keys whose lengths a floor says.
@@ -45,6 +45,11 @@ impl<'w> Ground<'w> {
             }
         }
         Some(Self { way: Some(way), next: 0, at: Some(Millimetres(0)) })
+    }
+
+    /// The ways of a person, by the number in the file.
+    pub(super) fn walks(&self, number: usize) -> Option<&'w [Result<Leg, NoLeg>]> {
+        self.way?.people.get(number).map(Vec::as_slice)
     }
 
     /// The length of the path, when all objectives were read.
@@ -135,7 +140,7 @@ fn refuse_lengths(fields: &mut Fields<'_>) {
     }
 }
 
-fn reported(fields: &Fields<'_>, span: std::ops::Range<usize>, why: &Refusal) {
+pub(super) fn reported(fields: &Fields<'_>, span: std::ops::Range<usize>, why: &Refusal) {
     let it = Diagnostic::new(span, why.message.as_str(), "on this floor");
     fields.report(Diagnostic { help: why.help.clone(), ..it });
 }

@@ -5,6 +5,7 @@ use super::faults;
 use super::fields::{Fields, Reported};
 use super::ground::Ground;
 use super::path::{objective, one_after_the_other, task, zone};
+use super::people;
 use super::supervision;
 use crate::missions::definition::{AXES, Definition, Hardware, Robot, Standing, Task, Tio, Zone};
 use crate::missions::diagnostic::{Diagnostic, Spanned};
@@ -13,6 +14,7 @@ use crate::missions::known::{
     AT_LEAST_ZERO, ENERGIES, NAME_LENGTHS, NEEDED_UNITS, OBJECTIVES, POSITIVE, QUALITIES,
     ROUNDINGS, SPEEDS, UNITS,
 };
+use crate::missions::people::People;
 use crate::missions::terms::{MotionPower, PlannedFor, harmless_speed};
 use crate::missions::under::Under;
 use crate::missions::way::Way;
@@ -64,6 +66,7 @@ pub(in crate::missions) fn definition_of(
         robot: robot.map(RobotFile::robot),
     };
     let run = root.optional_table("run").ok().and_then(|run| faults::run(run, &names));
+    let people = people::people(&mut root, ground.as_ref());
     unique(&root, "option", items(&tios).map(|it| (&it.id, &it.span)));
     unique(&root, "zone", items(&zones).map(|it| (&it.id, &it.span)));
     unique(&root, "objective", items(&objectives).map(|it| (&it.id, &it.span)));
@@ -85,6 +88,7 @@ pub(in crate::missions) fn definition_of(
         zones,
         under: Some(of.under),
         way: way.filter(|_| ground.is_some()).cloned(),
+        people: people?,
         run,
     })
 }
@@ -146,6 +150,7 @@ pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition
         zones: complete(zones)?,
         under: None,
         way: None,
+        people: People::default(),
         run: run?,
     })
 }

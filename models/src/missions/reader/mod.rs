@@ -8,6 +8,7 @@ mod limits;
 mod mission;
 mod moments;
 mod path;
+mod people;
 mod recorded;
 mod supervision;
 mod under;
