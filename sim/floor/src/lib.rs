@@ -52,6 +52,7 @@ mod route;
 mod segments;
 mod surface;
 mod way;
+mod ways;
 pub mod yaml;
 
 pub use field::{Field, FieldError, Measure};

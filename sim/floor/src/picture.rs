@@ -10,8 +10,9 @@ use cotama_drawing::elements::Elements;
 use cotama_drawing::svg::width;
 use std::fmt::{Display, Write as _};
 
-/// Pixels of a metre of a drawing, and the margin around.
+/// Pixels of a metre of a drawing, its largest width in pixels, and the margin around.
 const SCALE: f64 = 40.0;
+const WIDE: f64 = 1_200.0;
 const MARGIN: f64 = 24.0;
 /// Width of a picture of a map, in pixels.
 const MAP: f64 = 1_000.0;
@@ -158,12 +159,12 @@ pub fn floor_under(
     over: impl FnOnce(&Pixels) -> String,
 ) -> String {
     let bounds = floor.bounds();
-    let view = Pixels { least: bounds.least, top: bounds.most.y, scale: SCALE };
-    let size =
-        [bounds.width() * SCALE + 2.0 * MARGIN, bounds.height() * SCALE + 2.0 * MARGIN + 12.0];
+    let scale = SCALE.min(WIDE / bounds.width());
+    let view = Pixels { least: bounds.least, top: bounds.most.y, scale };
+    let ground = [bounds.width() * scale, bounds.height() * scale];
+    let size = [ground[0] + 2.0 * MARGIN, ground[1] + 2.0 * MARGIN + 12.0];
     let mut out = Elements::default();
     head(&mut out, size, &floor.name, &floor.title);
-    let ground = [bounds.width() * SCALE, bounds.height() * SCALE];
     out.rect("ground", [MARGIN, MARGIN].map(Px), ground.map(Px));
     out.push_str("\n<g>");
     for zone in &floor.zones {

@@ -10,7 +10,7 @@ use cotama_models::missions::{Asked, Leg, NoLeg, Refusal, Way};
 use places::{known, leg, no_path, place};
 use std::ops::Range;
 
-mod places;
+pub(crate) mod places;
 mod walks;
 
 pub use walks::PERSON_RADIUS_M;

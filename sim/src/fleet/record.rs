@@ -59,6 +59,19 @@ pub enum Record {
         #[serde(with = "crate::named")]
         stage: Stage,
     },
+    /// The spot of a robot on a floor: where it stands, and every two seconds of a drive.
+    At {
+        /// When, in ms.
+        t_ms: u64,
+        /// The robot.
+        robot: usize,
+        /// The place that it is coming from.
+        from: usize,
+        /// The next place.
+        to: usize,
+        /// How far it has come, in mm.
+        done_mm: u64,
+    },
     /// A robot fails.
     Fails {
         /// When, in ms.
@@ -161,6 +174,7 @@ impl Line for Record {
             | Self::Round { t_ms, .. }
             | Self::Awarded { t_ms, .. }
             | Self::Stage { t_ms, .. }
+            | Self::At { t_ms, .. }
             | Self::Fails { t_ms, .. }
             | Self::Shifted { t_ms, .. }
             | Self::Turned { t_ms, .. }

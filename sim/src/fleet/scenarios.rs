@@ -1,6 +1,7 @@
 //! Scenarios: the drink service of the thesis, an office with a fleet, and the worst cases of its
 //! table of messages.
 
+use super::floors;
 use crate::streams::{Stream, Streams};
 use cotama_core::team::Combine;
 use cotama_models::team::scenario;
@@ -10,6 +11,7 @@ use cotama_models::team::scenario::{
 };
 use cotama_models::team::service::{DETECT, GRASP_2F, MOVE};
 use cotama_models::team::{Capability, CapabilitySet, Skill};
+use std::sync::LazyLock;
 
 /// May enter the secured wing.
 const BADGE: Capability = Capability::new(6).expect("it is a small number");
@@ -74,7 +76,7 @@ const WORK: u64 = 240_000;
 pub fn fleet(options: &FleetOptions) -> Scenario {
     let robots = options.robots.clamp(1, MAX_ROBOTS);
     let streams = Streams::new(options.seed);
-    let floor = office();
+    let floor = OFFICE.clone();
     let horizon = options.tasks as u64 * WORK / robots as u64;
     let (mut places, mut times) = (streams.stream("fleet tasks"), streams.stream("fleet times"));
     let mut arrivals: Vec<u64> = (0..options.tasks).map(|_| times.below(horizon + 1)).collect();
@@ -126,6 +128,9 @@ fn faults(robots: usize, failures: usize, horizon: u64, stream: &mut Stream) -> 
     });
     each.collect()
 }
+
+/// The office on its floor, which only draws it.
+static OFFICE: LazyLock<Floor> = LazyLock::new(|| floors::drawn(office(), "fleet"));
 
 /// Two corridors of 72 m, joined at both ends and in the middle, with an office on each side of
 /// each corridor node.
@@ -204,6 +209,12 @@ pub struct ServiceOptions {
     pub seed: u64,
 }
 
+/// The service on its floor, which only draws it.
+static SERVICE: LazyLock<Scenario> = LazyLock::new(|| {
+    let it = scenario::service().expect("it is shipped");
+    Scenario { floor: floors::drawn(it.floor, "service"), ..it }
+});
+
 /// The drink service (3.6): a person orders at the desk; a cup in the kitchen is to be served.
 /// The file is `models/teams/service.toml`; speeds are those of the delivery robot.
 ///
@@ -216,7 +227,7 @@ pub struct ServiceOptions {
 /// # Panics
 /// Never: the file is shipped, and a test reads it.
 pub fn service(options: &ServiceOptions) -> Scenario {
-    let mut scenario = scenario::service().expect("it is shipped");
+    let mut scenario = SERVICE.clone();
     if !options.disturbances {
         scenario.faults.clear();
     }

@@ -2,9 +2,9 @@
 //! replay need nothing else.
 
 use super::record::{Record, Run};
-use crate::trace::{Difference, Head, TraceOf};
+use crate::trace::{Difference, FloorText, Head, TraceOf};
 use cotama_models::missions::MissionErrors;
-use cotama_models::team::scenario::{Row, Scenario};
+use cotama_models::team::scenario::{On, Row, Scenario};
 use serde::{Deserialize, Serialize};
 
 /// The form of a trace.
@@ -33,6 +33,9 @@ pub struct Header {
     pub scenario: String,
     /// The whole team, as the text of a `cotama-team/1` file.
     pub team: String,
+    /// The floor on which the team stands, with the ways over it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub floor: Option<FloorText>,
     /// The seed of the network.
     pub seed: u64,
     /// How tasks are given to robots.
@@ -67,6 +70,7 @@ impl Trace {
             version: env!("CARGO_PKG_VERSION").into(),
             scenario: scenario.name.clone(),
             team: scenario.to_toml(),
+            floor: scenario.floor.on().and_then(On::ways).map(FloorText::of_team),
             seed: scenario.seed,
             allocation: scenario.method.name().into(),
             loss_permille: scenario.network.loss_permille,
@@ -92,7 +96,9 @@ impl Trace {
     /// # Errors
     /// All errors of its text.
     pub fn scenario(&self) -> Result<Scenario, MissionErrors> {
-        let scenario = Scenario::parse(&self.header.scenario, &self.header.team)?;
+        let Header { scenario, team, floor, .. } = &self.header;
+        let ways = floor.as_ref().map(|it| it.ways(team));
+        let scenario = Scenario::parse_on(scenario, team, ways.as_ref())?;
         Ok(Scenario { seed: self.header.seed, ..scenario })
     }
 

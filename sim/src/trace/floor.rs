@@ -1,20 +1,24 @@
-//! The floor of a mission, and the way over it, in what is stored.
+//! The floor of a mission or a team, and the ways over it, in what is stored.
 
 use cotama_core::units::Millimetres;
 use cotama_models::missions::{Asked, Leg, Refusal, Way};
 use cotama_models::reading::quoted;
+use cotama_models::team::scenario::{self, Ways};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// The floor of a mission, and the way over it: a replay plans no way again.
+/// The floor of a mission or a team, and the ways over it: a replay plans none again.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FloorText {
     /// The name of the file.
     pub source: String,
     /// The whole text of the file.
     pub text: String,
-    /// The way from place to place.
+    /// The way from place to place of a mission, or between each pair of places of a team.
     pub legs: Vec<LegText>,
+    /// The places of a team, in mm.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub places_mm: Vec<[i32; 2]>,
     /// The zones that the mission names, with the parts of the path in each, in mm.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub zones: Vec<(String, Vec<(u64, u64)>)>,
@@ -35,7 +39,6 @@ pub struct LegText {
 impl FloorText {
     /// Returns the text of a way; what is wrong with it is left out.
     pub fn of(way: &Way) -> Self {
-        let leg = |it: &Leg| LegText { length_mm: it.length.0, points_mm: it.points.clone() };
         let zones = way.asked.zones.iter().zip(&way.zones);
         let zone = |(name, spans): (&String, &Result<Vec<Range<u64>>, Refusal>)| {
             let spans = spans.as_ref().ok()?.iter().map(|it| (it.start, it.end)).collect();
@@ -44,7 +47,8 @@ impl FloorText {
         Self {
             source: way.source.clone(),
             text: way.text.to_string(),
-            legs: way.legs.iter().flatten().map(leg).collect(),
+            legs: way.legs.iter().flatten().map(LegText::of).collect(),
+            places_mm: Vec::new(),
             zones: zones.filter_map(zone).collect(),
             people: way.people.iter().map(|it| it.iter().flatten().map(leg).collect()).collect(),
         }
@@ -52,9 +56,6 @@ impl FloorText {
 
     /// Returns the way that a mission takes.
     pub fn way(&self, mission: &str) -> Way {
-        let leg = |it: &LegText| {
-            Ok(Leg { points: it.points_mm.clone(), length: Millimetres(it.length_mm) })
-        };
         let asked = Asked::of(mission).unwrap_or_default();
         let zone = |name: &String| {
             let it = self.zones.iter().find(|it| it.0 == *name);
@@ -66,10 +67,42 @@ impl FloorText {
             text: self.text.as_str().into(),
             start: Ok(()),
             doors: Ok(()),
-            legs: self.legs.iter().map(leg).collect(),
+            legs: self.legs.iter().map(|it| Ok(it.leg())).collect(),
             zones: asked.zones.iter().map(zone).collect(),
             people: self.people.iter().map(|it| it.iter().map(leg).collect()).collect(),
             asked,
         }
+    }
+    /// Returns the text of the ways of a team that has read them: all are good.
+    pub fn of_team(ways: &Ways) -> Self {
+        Self {
+            source: ways.source.clone(),
+            text: ways.text.to_string(),
+            legs: ways.legs.iter().flatten().map(LegText::of).collect(),
+            places_mm: ways.places.iter().flatten().copied().collect(),
+            zones: Vec::new(),
+        }
+    }
+
+    /// Returns the ways of a team, by the text of its file.
+    pub fn ways(&self, team: &str) -> Ways {
+        Ways {
+            source: self.source.clone(),
+            text: self.text.as_str().into(),
+            asked: scenario::Asked::of(team).unwrap_or_default(),
+            doors: Ok(()),
+            places: self.places_mm.iter().map(|it| Ok(*it)).collect(),
+            legs: self.legs.iter().map(|it| Ok(it.leg())).collect(),
+        }
+    }
+}
+
+impl LegText {
+    fn of(leg: &Leg) -> Self {
+        Self { length_mm: leg.length.0, points_mm: leg.points.clone() }
+    }
+
+    fn leg(&self) -> Leg {
+        Leg { points: self.points_mm.clone(), length: Millimetres(self.length_mm) }
     }
 }

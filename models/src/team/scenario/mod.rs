@@ -42,15 +42,18 @@
 
 mod bid;
 mod floor;
+mod ground;
 mod reader;
 #[cfg(test)]
 mod tests;
+mod track;
 mod worker;
 mod writer;
 
 pub use bid::{Outlook, common_denominator};
-pub use floor::{Floor, Place, Spot};
-pub use reader::{FAULTS, FORMAT, FaultsOfTeam};
+pub use floor::{Floor, On, Place, Spot};
+pub use ground::{Asked, MOST_PAIRED, MOST_PLANNED, Ways};
+pub use reader::{FAULTS, FaultsOfTeam};
 pub use worker::{Row, drive_ms, pace, planning_ms, robot, steps};
 
 use super::capability::{Capability, CapabilitySet, Robot, Skill};
@@ -393,3 +396,7 @@ pub struct Scenario {
 
 /// The most robots of a team.
 pub const MAX_ROBOTS: usize = 64;
+/// Value of `format` in files of teams.
+pub const FORMAT: &str = "cotama-team/1";
+/// The most tasks, faults, and ways between places of a file.
+const MANY: usize = 10_000;

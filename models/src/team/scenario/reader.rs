@@ -1,34 +1,30 @@
 //! Reading a team's file.
 
+mod places;
 mod task;
 
 use super::{
-    Fault, FaultKind, FaultTime, Floor, Formation, MAX_ROBOTS, Method, Place, Quality, RobotSpec,
-    Row, Scenario, Stage,
+    FORMAT, Fault, FaultKind, FaultTime, Formation, MANY, MAX_ROBOTS, Method, Quality, RobotSpec,
+    Row, Scenario, Stage, Ways,
 };
 use crate::missions::faults::Expected;
 use crate::missions::reader::fields::{Fields, Reported, Sink, document, document_of_either};
 use crate::missions::{Diagnostic, MissionErrors, Spanned};
 use crate::names::{quoted, unknown};
 use crate::team::{Capability, CapabilitySet, Reliability, Skill};
+use places::{Places, floor};
 use std::ops::{Range, RangeInclusive};
 
-/// Value of `format` in files of teams.
-pub const FORMAT: &str = "cotama-team/1";
 /// Value of `format` in files of a team's faults.
 pub const FAULTS: &str = "cotama-team-faults/1";
-/// The most tasks, faults, and ways between places of a file.
-const MANY: usize = 10_000;
 /// Times in ms, up to a day.
 const AMOUNTS: RangeInclusive<i64> = 0..=86_400_000;
-/// Lengths of ways in mm, up to 10 km.
-const LENGTHS: RangeInclusive<i64> = 1..=10_000_000;
 const PERMILLE: RangeInclusive<i64> = 0..=1_000;
 
 /// Names of a file that others refer to.
 #[derive(Default)]
 struct Names {
-    places: Vec<String>,
+    places: Places,
     skills: Vec<String>,
     robots: Vec<String>,
     tasks: Vec<String>,
@@ -49,8 +45,23 @@ impl Scenario {
     /// assert!(errors.contains(first), "{errors}");
     /// ```
     pub fn parse(source_name: &str, text: &str) -> Result<Self, MissionErrors> {
+        Self::parse_on(source_name, text, None)
+    }
+
+    /// Reads the same file of a team that stands on a floor, with the ways that were planned for
+    /// what the file [asks](super::Asked). They are not looked at where the file names no floor;
+    /// without them only a file can be read that says the lengths of its ways itself.
+    ///
+    /// # Errors
+    /// All errors of the file, with their places: among them each place that the floor does not
+    /// have, or that nothing leads to.
+    pub fn parse_on(
+        source_name: &str,
+        text: &str,
+        ways: Option<&Ways>,
+    ) -> Result<Self, MissionErrors> {
         let sink = Sink::default();
-        let scenario = document_of_either(text, &sink, FORMAT, scenario);
+        let scenario = document_of_either(text, &sink, FORMAT, |it| scenario(it, ways));
         match scenario.filter(|_| sink.is_empty()) {
             Some(scenario) => Ok(scenario),
             None => Err(MissionErrors::new(source_name, text, sink.into_diagnostics())),
@@ -93,7 +104,7 @@ impl Scenario {
     pub fn faults_of(&self, source_name: &str, text: &str) -> Result<FaultsOfTeam, MissionErrors> {
         let sink = Sink::default();
         let names = Names {
-            places: Vec::new(),
+            places: Places::default(),
             skills: self.skills.clone(),
             robots: self.robots.iter().map(|it| it.name.clone()).collect(),
             tasks: self.tasks.iter().map(|it| it.name.clone()).collect(),
@@ -117,7 +128,7 @@ impl Scenario {
     }
 }
 
-fn scenario(mut fields: Fields<'_>) -> Option<Scenario> {
+fn scenario(mut fields: Fields<'_>, ways: Option<&Ways>) -> Option<Scenario> {
     let name = fields.text("name");
     let mut names = Names::default();
     let skills = fields.optional_texts("skills").unwrap_or_default();
@@ -125,7 +136,7 @@ fn scenario(mut fields: Fields<'_>) -> Option<Scenario> {
         skill(&fields, it, &mut names);
     }
     let network = network(fields.optional_table("network"));
-    let floor = fields.table("floor").and_then(|it| floor(it, &mut names));
+    let floor = floor(&mut fields, ways, &mut names);
     let robots = fields.tables_up_to("robot", true, MAX_ROBOTS).unwrap_or_default();
     let robots: Vec<_> = robots.into_iter().map(|it| robot(it, &mut names)).collect();
     let auction = auction(fields.optional_table("auction"), &names);
@@ -181,14 +192,6 @@ fn among(
 ) -> Option<usize> {
     let name = name?;
     fields.index_of(name, what, known.iter().map(String::as_str))
-}
-
-fn place(fields: &Fields<'_>, name: Option<&Spanned<String>>, names: &Names) -> Option<Place> {
-    // Where no place could be read, that is the error.
-    if names.places.is_empty() {
-        return None;
-    }
-    among(fields, name, "place", &names.places).map(Place)
 }
 
 /// A name that must be new.
@@ -262,48 +265,10 @@ fn one_of<T: Copy, const N: usize>(
     Ok(Some(known[at].1))
 }
 
-fn floor(mut fields: Fields<'_>, names: &mut Names) -> Option<Floor> {
-    let places = fields.texts("places");
-    for it in places.iter().flatten() {
-        if names.places.contains(&it.value) {
-            let message = format!("the place {} is there twice", quoted(&it.value));
-            fields.report(Diagnostic::new(it.span.clone(), message, "twice"));
-        }
-        names.places.push(it.value.clone());
-    }
-    let ways = fields.tables_up_to("way", false, MANY).unwrap_or_default();
-    let ways: Vec<_> = ways.into_iter().map(|it| way(it, names)).collect();
-    fields.finish();
-    places?;
-    let names: Vec<&str> = names.places.iter().map(String::as_str).collect();
-    Some(Floor::new(&names, &ways.into_iter().collect::<Option<Vec<_>>>()?))
-}
-
-fn way(mut fields: Fields<'_>, names: &Names) -> Option<(usize, usize, u64)> {
-    let between = fields.texts("between");
-    let ends = between.as_ref().and_then(|it| match &it[..] {
-        [a, b] if a.value != b.value => {
-            let ends = [a, b].map(|it| place(&fields, Some(it), names));
-            Some((ends[0]?.0, ends[1]?.0))
-        }
-        _ => {
-            let span = fields.span_of("between");
-            let message = "a way leads from one place to another";
-            let help = "write two places, as `[\"hall\", \"kitchen\"]`";
-            fields.report(Diagnostic::new(span, message, "not two places").help(help));
-            None
-        }
-    });
-    let length = fields.integer("length_mm", LENGTHS);
-    fields.finish();
-    let (a, b) = ends?;
-    Some((a, b, length?))
-}
-
 fn robot(mut fields: Fields<'_>, names: &mut Names) -> Option<RobotSpec> {
     let name = new_name(&mut fields, "robot", &mut names.robots);
     let at = fields.text("at");
-    let start = place(&fields, at.as_ref(), names);
+    let start = names.places.place(&fields, at.as_ref());
     let skills = fields.optional_texts("skills").ok();
     let skills: Option<Vec<_>> =
         skills.map(|it| it.iter().map(|it| skilled(&fields, it, names)).collect::<Vec<_>>());

@@ -78,15 +78,7 @@ impl Lines<'_> {
         }
         self.line("slack_permille", it.slack_permille);
         self.line("second_best", it.second_best);
-        self.head("[floor]");
-        let places: Vec<_> =
-            (0..it.floor.places()).map(|it| self.place(super::Place(it))).collect();
-        self.line("places", format!("[{}]", places.join(", ")));
-        for (a, b, length) in it.floor.ways() {
-            self.head("[[floor.way]]");
-            self.line("between", format!("[{}, {}]", places[a], places[b]));
-            self.line("length_mm", length);
-        }
+        self.floor();
         for robot in &it.robots {
             self.head("[[robot]]");
             self.line("name", quoted(&robot.name));
@@ -98,6 +90,35 @@ impl Lines<'_> {
         for it in &it.faults {
             self.head("[[fault]]");
             self.fault(it);
+        }
+    }
+
+    fn floor(&mut self) {
+        let floor = &self.scenario.floor;
+        self.head("[floor]");
+        let list = |all: &[String]| {
+            let all: Vec<_> = all.iter().map(|it| quoted(it)).collect();
+            format!("[{}]", all.join(", "))
+        };
+        if let Some(on) = floor.on() {
+            self.line("on", quoted(&on.floor));
+            for (key, doors) in [("open", &on.open), ("close", &on.close)] {
+                if !doors.is_empty() {
+                    self.line(key, list(doors));
+                }
+            }
+        }
+        let places: Vec<_> = (0..floor.places()).map(|it| self.place(super::Place(it))).collect();
+        self.line("places", format!("[{}]", places.join(", ")));
+        if floor.on().is_some_and(|it| !it.has_ways()) {
+            return;
+        }
+        for (a, b, length) in floor.ways() {
+            self.head("[[floor.way]]");
+            self.line("between", format!("[{}, {}]", places[a], places[b]));
+            if floor.on().is_none_or(|it| !it.measures(a, b)) {
+                self.line("length_mm", length);
+            }
         }
     }
 

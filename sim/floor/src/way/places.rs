@@ -9,7 +9,7 @@ use cotama_models::missions::{Leg, NoLeg, Refusal};
 use cotama_models::reading::{quoted, unknown};
 
 /// Says why there is no way.
-pub(super) fn no_path(
+pub(crate) fn no_path(
     why: RouteError,
     floor: Option<&Floor>,
     [from, to]: [&str; 2],
@@ -39,7 +39,7 @@ pub(super) fn no_path(
 }
 
 /// The place of this name, or at `X,Y` in mm.
-pub(super) fn place(floor: Option<&Floor>, name: &str) -> Result<Point, Refusal> {
+pub(crate) fn place(floor: Option<&Floor>, name: &str) -> Result<Point, Refusal> {
     if let Some(it) = floor.and_then(|it| it.place(name)) {
         return Ok(metres(it.at));
     }
@@ -64,7 +64,7 @@ pub(super) fn known<'n>(
 }
 
 /// Returns a way in mm.
-pub(super) fn leg(path: &Path) -> Leg {
+pub(crate) fn leg(path: &Path) -> Leg {
     let mm = |it: f64| (it * 1_000.0).round() as i32;
     let points = path.points().iter().map(|it| [mm(it.x), mm(it.y)]).collect();
     Leg { points, length: Millimetres(path.length_mm()) }

@@ -255,6 +255,15 @@ impl<'s> World<'s> {
         }
     }
 
+    /// Notes where a robot is, on a floor that is drawn.
+    fn note_spot(&mut self, robot: usize) {
+        if self.records.is_some() && self.scenario.floor.is_drawn() {
+            let Spot { from, to, done_mm } = self.spot(robot);
+            let (from, to) = (from.0, to.0);
+            self.note(|t_ms| Record::At { t_ms, robot, from, to, done_mm });
+        }
+    }
+
     /// Returns the spot of a robot.
     fn spot(&self, robot: usize) -> Spot {
         let agent = &self.robots[robot];

@@ -326,6 +326,9 @@ impl World<'_> {
     /// The robot says how it is.
     pub(super) fn beat(&mut self, robot: usize) {
         self.queue.push(self.now + BEAT, 1, super::Event::Beat(robot));
+        if self.robots[robot].drives_to().is_some() {
+            self.note_spot(robot);
+        }
         if !self.robots[robot].driver.thinks() {
             return;
         }

@@ -144,6 +144,7 @@ impl World<'_> {
         let task = agent.work().map(|it| it.award.id.task);
         if !same || stage != Stage::Rests {
             self.note(|t_ms| Record::Stage { t_ms, robot, task, stage });
+            self.note_spot(robot);
         }
         if let Some(task) = task {
             self.visit(robot, task, stage);

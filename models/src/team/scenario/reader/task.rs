@@ -1,6 +1,6 @@
 //! Reading the tasks of a team: plans, roles, and what they need.
 
-use super::{AMOUNTS, Names, among, new_name, not_known, one_of, place};
+use super::{AMOUNTS, Names, among, new_name, not_known, one_of};
 use crate::missions::Diagnostic;
 use crate::missions::Spanned;
 use crate::missions::reader::fields::Fields;
@@ -22,7 +22,7 @@ pub(super) fn task(mut fields: Fields<'_>, names: &mut Names) -> Option<TaskSpec
     let arrival = fields.optional_integer("arrives_ms", AMOUNTS);
     let ends = ["from", "to"].map(|key| {
         let text = fields.text(key);
-        place(&fields, text.as_ref(), names)
+        names.places.place(&fields, text.as_ref())
     });
     let utility = fields.integer("skip_ms", AMOUNTS);
     let combine = [("sum", Combine::Sum), ("mean", Combine::Mean), ("max", Combine::Max)];
@@ -126,7 +126,7 @@ fn end<T: Copy>(
         let mut table = fields.table(key)?;
         let words = known.iter().any(|it| it.0 == "words_at") && table.has("words_at");
         let at = table.text(if words { "words_at" } else { "partner_at" });
-        let place = place(&table, at.as_ref(), names);
+        let place = names.places.place(&table, at.as_ref());
         table.finish();
         return Some(if words { End::Words(place?) } else { End::Partner(place?) });
     }
