@@ -144,7 +144,11 @@ fn ways_that_a_file_names_are_the_only_ones() {
 
 proptest! {
     #[test]
-    fn a_drive_passes_the_points_of_its_course(a in 0_usize..7, b in 0_usize..7, part in 0_u64..=1_000) {
+    fn a_drive_passes_the_points_of_its_course(
+        a in 0_usize..7,
+        b in 0_usize..7,
+        part in 0_u64..=1_000,
+    ) {
         let scenario = CREW_READ.with(Clone::clone);
         let floor = &scenario.floor;
         let [from, to] = [a, b].map(|it| Spot::at(Place(it % floor.places())));

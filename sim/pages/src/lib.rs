@@ -20,6 +20,7 @@ pub mod causes;
 mod format;
 mod frame;
 pub mod mission;
+mod player;
 mod svg;
 pub mod team;
 

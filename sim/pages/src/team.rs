@@ -12,6 +12,9 @@ use cotama_sim::fleet::trace::Trace;
 use std::fmt::Write;
 
 mod bars;
+mod floor;
+mod items;
+mod tracks;
 
 use bars::{Bar, bars};
 
@@ -44,7 +47,12 @@ const COLOURS: [(&str, &str); 5] = [
 pub fn html(trace: &Trace) -> String {
     let mut page = String::new();
     head(&mut page, trace);
-    gantt(&mut page, trace);
+    let end_ms = trace.run().end_ms.max(1);
+    let all: Vec<Vec<Bar>> =
+        (0..trace.header.robots.len()).map(|robot| bars(trace, robot, end_ms)).collect();
+    let on_floor = floor::section(trace, &all);
+    page.push_str(&on_floor);
+    gantt(&mut page, trace, &all, !on_floor.is_empty());
     wrong(&mut page, trace);
     auctions(&mut page, trace);
     messages(&mut page, trace);
@@ -102,16 +110,13 @@ fn head(page: &mut String, trace: &Trace) {
 }
 
 /// The lanes of all robots over time, with their key.
-fn gantt(page: &mut String, trace: &Trace) {
+fn gantt(page: &mut String, trace: &Trace, all: &[Vec<Bar>], has_cursor: bool) {
     page.push_str(
         "<section><h2>Who did what, when</h2>\n<p class=\"note\">A lane is a robot; where it rests \
          there is no bar. The table below the drawing lists all bars.</p>\n<figure>\n",
     );
-    let end_ms = trace.run().end_ms.max(1);
-    let all: Vec<Vec<Bar>> =
-        (0..trace.header.robots.len()).map(|robot| bars(trace, robot, end_ms)).collect();
-    page.push_str(&lanes(trace, &all, WIDE));
-    page.push_str(&lanes(trace, &all, NARROW));
+    page.push_str(&lanes(trace, all, WIDE, has_cursor));
+    page.push_str(&lanes(trace, all, NARROW, has_cursor));
     page.push_str("<figcaption class=\"keys\">");
     for (class, words) in COLOURS {
         let _ =
@@ -126,7 +131,7 @@ fn gantt(page: &mut String, trace: &Trace) {
          <circle class=\"after\" r=\"4\"/></svg>an error that is dealt with</span>\
          </figcaption></figure>\n",
     );
-    list(page, trace, &all);
+    list(page, trace, all);
     page.push_str("</section>\n");
 }
 
@@ -162,7 +167,7 @@ fn list(page: &mut String, trace: &Trace, all: &[Vec<Bar>]) {
     page.push_str("</details>\n");
 }
 
-fn lanes(trace: &Trace, all: &[Vec<Bar>], layout: Layout) -> String {
+fn lanes(trace: &Trace, all: &[Vec<Bar>], layout: Layout, has_cursor: bool) -> String {
     let robots = trace.header.robots.len();
     let (height, bar) = if robots > FEW { (14.0, 10.0) } else { (28.0, 20.0) };
     let names: Vec<String> = trace.header.robots.iter().map(|it| fitted(it, 11.0, 110.0)).collect();
@@ -198,6 +203,9 @@ fn lanes(trace: &Trace, all: &[Vec<Bar>], layout: Layout) -> String {
             }
         }
         marks(&mut svg, trace, robot, &at, y + bar / 2.0);
+    }
+    if has_cursor {
+        svg.cursor([left, layout.end()], [4.0, bottom]);
     }
     let label = "What each robot did over time";
     svg.finish(layout.class, [layout.width, bottom + 22.0], label)

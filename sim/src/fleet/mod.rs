@@ -14,14 +14,15 @@
 //!
 //! *The world* is a [`Floor`]: places, ways, distances, which may be those of paths that are
 //! planned on a [floor of walls and rooms](floors); a robot is then on its path, at the length that
-//! it has driven. An object lies somewhere, or is on board; where it is, everybody knows. *A robot* runs under the supervisors that its
-//! [file](cotama_models::team::scenario::robot) makes, as in a [mission](crate::robots): a task is
-//! a mission of four objectives (drive, receive, drive, deliver), its path planned for two seconds
-//! a drive; failures raise flags with the latencies of the file, and what its supervisors make of
-//! them (another configuration, a safe stop, a question that nobody answers) is all that the team
-//! sees. A bid is the time of the drives, at the speed of the configuration that works, and of the
-//! hands. Where the robot comes to need more than it pledged, or goes safe, it gives the task back
-//! with its error class; what it has on board others fetch from it.
+//! it has driven. An object lies somewhere, or is on board; where it is, everybody knows. *A robot*
+//! runs under the supervisors that its [file](cotama_models::team::scenario::robot) makes, as in a
+//! [mission](crate::robots): a task is a mission of four objectives (drive, receive, drive,
+//! deliver), its path planned for two seconds a drive; failures raise flags with the latencies of
+//! the file, and what its supervisors make of them (another configuration, a safe stop, a question
+//! that nobody answers) is all that the team sees. A bid is the time of the drives, at the speed of
+//! the configuration that works, and of the hands. Where the robot comes to need more than it
+//! pledged, or goes safe, it gives the task back with its error class; what it has on board others
+//! fetch from it.
 //!
 //! *The protocol* is that of the thesis, with what it leaves out. Bids and acknowledgements have
 //! deadlines, and who is silent is asked again. A message of another round changes nothing. An

@@ -4,6 +4,7 @@
 use super::MAX_POINTS;
 use super::view::View;
 use crate::format::{metres as in_metres, moment};
+use crate::player::Player;
 use crate::svg::fixed;
 use cotama_core::text::markup;
 use cotama_floor::picture::{self, Pixels};
@@ -69,18 +70,22 @@ pub(super) fn section(view: &View<'_>) -> String {
         }
         (None, None) => return String::new(),
     };
-    let end = view.last().1 / 1_000;
-    format!(
-        "<section class=\"onfloor\"><h2>On the floor</h2>\n<p class=\"note\">{}, {} from place to \
-         place. The slider moves the robot through the run; numbers are points of the story.</p>\n\
-         <figure class=\"map\">{drawn}</figure>\n<p class=\"player\"><button type=\"button\">\
-         Play</button> <input type=\"range\" min=\"0\" max=\"{end}\" step=\"100\" value=\"0\" \
-         aria-label=\"Time of the run\"> <output></output></p>\n<script>\nvar RUN={{{data}}};\n{}\
-         </script></section>\n",
-        markup(name),
-        in_metres(way.length().0),
-        include_str!("floor.js")
-    )
+    let note = format!(
+        "{name}, {} from place to place. The slider moves the robot through the run; numbers are \
+         points of the story.",
+        in_metres(way.length().0)
+    );
+    let player = Player {
+        class: "onfloor",
+        note: &note,
+        drawn: &drawn,
+        below: "",
+        end_ms: view.last().1 / 1_000,
+        speed: 20,
+        data: &data,
+        script: include_str!("floor.js"),
+    };
+    player.section()
 }
 
 /// A corner of the way, with the length along it.

@@ -66,7 +66,12 @@ fn said(page: &str, activities: bool) -> String {
         let (tag, after) = after.split_once('>').unwrap();
         rest = after;
         let name = tag.trim_start_matches('/').split([' ', '/']).next().unwrap();
-        let hidden = [("svg", "narrow"), ("svg", "glyph"), ("section", "glossary")];
+        if matches!(tag, "script" | "style") {
+            rest = rest.split_once(&format!("</{tag}>")).unwrap().1;
+        }
+        // The floor is drawn by its own crate.
+        let hidden =
+            [("svg", "narrow"), ("svg", "glyph"), ("svg", "floor"), ("section", "glossary")];
         let activities = (!activities).then_some(("section", "activities"));
         if let Some((hidden, _)) = hidden
             .into_iter()

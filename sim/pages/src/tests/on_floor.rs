@@ -1,9 +1,13 @@
 //! The run on its floor.
 
 use crate::mission::html;
-use cotama_floor::{Ground, Needs, embedded::OFFICE};
+use crate::team;
+use cotama_floor::embedded::{OFFICE, SERVICE};
+use cotama_floor::{Ground, Needs, Point, Surface, Version};
 use cotama_models::missions::{Asked, Mission};
 use cotama_models::robots::RobotFile;
+use cotama_sim::fleet;
+use cotama_sim::fleet::scenarios::{ServiceOptions, service};
 use cotama_sim::options::Options;
 use cotama_sim::trace::Trace;
 
@@ -27,12 +31,16 @@ run.event = [{ x_mm = 9_000, kind = "failure", mode = "CAM1" }]
     html(&Trace::record(&mission, &Options::default()).unwrap().0)
 }
 
-#[test]
-fn a_robot_moves_from_the_first_corner_of_the_way_to_the_last() {
-    let page = page();
+/// The object of the script of a page.
+fn run(page: &str) -> serde_json::Value {
     let (_, script) = page.split_once("var RUN=").unwrap();
     let (data, _) = script.split_once(";\n").unwrap();
-    let run: serde_json::Value = serde_json::from_str(data).unwrap();
+    serde_json::from_str(data).unwrap()
+}
+
+#[test]
+fn a_robot_moves_from_the_first_corner_of_the_way_to_the_last() {
+    let run = run(&page());
     let rows = |key: &str| run[key].as_array().unwrap().clone();
     let (way, samples) = (rows("way"), rows("samples"));
     assert_eq!((way[0][0].as_u64(), samples[0][1].as_u64()), (Some(0), Some(0)));
@@ -55,4 +63,62 @@ fn points_of_the_story_stand_on_the_floor_and_each_curve_has_its_cursor() {
     );
     assert!(floor.contains("<title>office</title>") && floor.contains("class=\"way\""));
     assert_eq!(rest.matches("<line class=\"cursor\"").count(), 2); // wide and narrow
+}
+
+/// The page of the service with its disturbances.
+fn served() -> String {
+    let options = ServiceOptions { disturbances: true, ..ServiceOptions::default() };
+    team::html(&fleet::trace::Trace::of(&service(&options)))
+}
+
+#[test]
+fn robots_of_a_team_are_drawn_on_free_floor_at_any_time() {
+    let floor = SERVICE.floor().unwrap();
+    let surface = floor.surface(Version::Charted, &[]).unwrap();
+    // A margin of 24 pixels around the floor, whose longer side has 1,200.
+    let scale = 1_200.0 / floor.bounds().width();
+    let height = floor.bounds().height();
+    let run = run(&served());
+    let tracks = run["robots"].as_array().unwrap();
+    assert_eq!(tracks.len(), 4);
+    let mut moved = 0;
+    for track in tracks {
+        let moments: Vec<[f64; 3]> = serde_json::from_value(track.clone()).unwrap();
+        assert!(moments.is_sorted_by(|a, b| a[0] <= b[0]));
+        moved += usize::from(moments.len() > 2);
+        for pair in moments.windows(2) {
+            for tenth in 0..=10 {
+                let between =
+                    |it: usize| pair[0][it] + (pair[1][it] - pair[0][it]) * f64::from(tenth) / 10.0;
+                let x = (between(1) - 24.0) / scale;
+                let y = height - (between(2) - 24.0) / scale;
+                // Moments are within half a pixel of the path.
+                let room = surface.clearance(Point::new(x, y), 1.0);
+                assert!(room > 0.26 - 0.5 / scale, "{room} at {x}, {y}");
+            }
+        }
+    }
+    assert_eq!(moved, 2); // Eddie and Poppy
+}
+
+#[test]
+fn tasks_of_a_team_go_from_their_place_to_a_robot_and_to_their_goal() {
+    let page = served();
+    let run = run(&page);
+    let states = |task: usize| {
+        let changes = run["tasks"][task].as_array().unwrap().iter();
+        changes.map(|it| (it[1].as_str().unwrap().to_owned(), it[2].as_i64().unwrap())).collect()
+    };
+    let named = |all: &[(&str, i64)]| -> Vec<(String, i64)> {
+        all.iter().map(|it| (it.0.to_owned(), it.1)).collect()
+    };
+    let order: Vec<(String, i64)> = states(0);
+    assert_eq!(order, named(&[("waits", -1), ("awarded", -1), ("done", -1)]));
+    // Poppy, the third robot, has the cup on board when Eddie is stopped.
+    let serve: Vec<(String, i64)> = states(1);
+    assert_eq!(serve.last(), Some(&("done".to_owned(), -1)));
+    assert!(serve.contains(&("carried".to_owned(), 2)), "{serve:?}");
+    assert!(page.contains("<b class=\"disc\">E</b> Eddie"));
+    assert_eq!(page.matches("<line class=\"cursor\"").count(), 2); // wide and narrow
+    assert!(!page.contains("http://localhost") && !page.contains("src=\"http"));
 }

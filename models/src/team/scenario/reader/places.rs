@@ -27,7 +27,7 @@ impl Places {
         fields: &Fields<'_>,
         name: Option<&Spanned<String>>,
     ) -> Option<Place> {
-        // Where no place could be read, that is the error.
+        // A list of places that could not be read is the error.
         if self.names.is_empty() {
             return None;
         }
