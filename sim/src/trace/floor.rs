@@ -50,7 +50,9 @@ impl FloorText {
             legs: way.legs.iter().flatten().map(LegText::of).collect(),
             places_mm: Vec::new(),
             zones: zones.filter_map(zone).collect(),
-            people: way.people.iter().map(|it| it.iter().flatten().map(leg).collect()).collect(),
+            people: { way.people.iter() }
+                .map(|it| it.iter().flatten().map(LegText::of).collect())
+                .collect(),
         }
     }
 
@@ -69,10 +71,13 @@ impl FloorText {
             doors: Ok(()),
             legs: self.legs.iter().map(|it| Ok(it.leg())).collect(),
             zones: asked.zones.iter().map(zone).collect(),
-            people: self.people.iter().map(|it| it.iter().map(leg).collect()).collect(),
+            people: { self.people.iter() }
+                .map(|it| it.iter().map(|it| Ok(it.leg())).collect())
+                .collect(),
             asked,
         }
     }
+
     /// Returns the text of the ways of a team that has read them: all are good.
     pub fn of_team(ways: &Ways) -> Self {
         Self {
@@ -81,6 +86,7 @@ impl FloorText {
             legs: ways.legs.iter().flatten().map(LegText::of).collect(),
             places_mm: ways.places.iter().flatten().copied().collect(),
             zones: Vec::new(),
+            people: Vec::new(),
         }
     }
 
