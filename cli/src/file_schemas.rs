@@ -4,23 +4,24 @@
 //! (`tests/file_schemas.rs`). A schema knows the shape of a file, not what its numbers say
 //! together: that objectives follow each other, say, only the reader finds out.
 
+mod events;
 mod parts;
 mod people;
 mod robot;
 
+use events::happenings;
 pub(crate) use robot::robot as robot_file;
 
 use cotama_core::hardware::{MAX_KINDS, MAX_UNITS};
 use cotama_models::missions::faults::{self, Adapts, FIDELITIES, OUTCOMES};
 use cotama_models::missions::known::{
-    ALLOCATORS, AT_LEAST_ZERO, COUNTS, ENERGIES, EVENTS, INCIDENTS, NAME_LENGTHS, NEEDED_UNITS,
-    OBJECTIVES, PEOPLE, PER_KM, PERIODS, POSITIVE, POWER_ERRORS, QUALITIES, RANDOM_EVENTS,
-    ROUNDINGS, SEARCHES, SPEEDS, UNITS,
+    ALLOCATORS, AT_LEAST_ZERO, COUNTS, ENERGIES, EVENTS, NAME_LENGTHS, NEEDED_UNITS, OBJECTIVES,
+    PEOPLE, PERIODS, POSITIVE, QUALITIES, ROUNDINGS, SEARCHES, SPEEDS, UNITS,
 };
 use cotama_models::missions::{self, AXES};
 use parts::{
-    absent, both, choice, choices, id, integer, named, names, only, says, table, tables, text,
-    when, with, word,
+    absent, both, choice, choices, id, integer, named, names, says, table, tables, text, when,
+    with, word,
 };
 use serde_json::{Value, json};
 
@@ -337,105 +338,4 @@ fn run() -> Value {
     let period = integer(&PERIODS, "how often margins are looked at, in ms; 1,000");
     let can = [&[("monitor_period_ms", period)][..], &happenings()].concat();
     table(&[], &can, "what goes wrong in this mission")
-}
-
-/// The keys of a file of faults, and of `[run]`.
-fn happenings() -> [(&'static str, Value); 3] {
-    let error = integer(&POWER_ERRORS, "difference in parts per thousand");
-    let error = named(&error, "by zone, real power against that of the model, in ‰");
-    let events = tables(&event(), 0, "what happens where");
-    let random = tables(&random_event(), 0, "what happens at places drawn from `--seed`");
-    [("power_error_permille", error), ("event", events), ("random", random)]
-}
-
-/// Returns the fields of an event beside its place and its kind.
-fn details() -> [(&'static str, Value); 14] {
-    let (place, time) = ("where it ends, in mm", "when it ends, in ms after the start");
-    let state = "the robot comes to this sub-objective, or to `Waits`, for the first time";
-    let answers = json!({
-        "type": "array", "items": { "type": "string" }, "minItems": 1,
-        "description": "what the operator does when asked: his sub-objectives, `done`, `give_up`",
-    });
-    [
-        ("t_ms", integer(&AT_LEAST_ZERO, "in place of `x_mm`: when it fails, in ms")),
-        ("during", text(&format!("in place of `x_mm`: {state}"))),
-        ("after_ms", integer(&AT_LEAST_ZERO, "beside `during`: so long after, in ms")),
-        ("until_x_mm", integer(&AT_LEAST_ZERO, place)),
-        ("until_t_ms", integer(&AT_LEAST_ZERO, time)),
-        ("until_during", text(&format!("it ends when {state}"))),
-        ("until_after_ms", integer(&AT_LEAST_ZERO, "so long after `until_during`")),
-        ("delay_ms", integer(&AT_LEAST_ZERO, "how long the robot or the operator waits, in ms")),
-        ("extra_mm", integer(&POSITIVE, "so much more path to drive, in mm")),
-        ("hardware", text("what fails or works again")),
-        ("units_lost", integer(&UNITS, "how many units fail")),
-        ("units_back", integer(&UNITS, "how many units work again")),
-        ("mode", text("a failure of the robot's file, by its id")),
-        ("answers", answers),
-    ]
-}
-
-fn event() -> Value {
-    let kinds = [&EVENTS[..], &INCIDENTS].concat();
-    let needs = [("kind", choice(&kinds, "what happens; it says which other keys there are"))];
-    let details = details();
-    let keys = details.each_ref().map(|it| it.0);
-    let place = [("x_mm", integer(&AT_LEAST_ZERO, "where it happens, in mm"))];
-    let can: Vec<_> = place.into_iter().chain(details).collect();
-    let has_mode = json!({ "required": ["mode"] });
-    let repairs = says("kind", &["repair"]);
-    let rules = [
-        (says("kind", &["obstacle"]), &["delay_ms"][..]),
-        (says("kind", &["odometry"]), &["extra_mm"]),
-        (says("kind", &["fault"]), &["hardware", "units_lost"]),
-        (both(&repairs, &absent(&["mode"])), &["hardware", "units_back"]),
-        (both(&repairs, &has_mode), &["mode"]),
-        (says("kind", &["operator"]), &["answers", "delay_ms"]),
-    ];
-    let rules = rules.map(|(kind, needs)| when(&kind, &only(needs, &keys)));
-    let rules = rules.into_iter().chain([obstacles_last(), fails(&keys), placed()]).collect();
-    with(table(&needs, &can, "something that happens once"), "allOf", rules)
-}
-
-/// A failure names its mode, and when it begins and ends.
-fn fails(keys: &[&str]) -> Value {
-    let own = |key: &&str| {
-        ["mode", "t_ms", "during", "after_ms"].contains(key) || key.starts_with("until_")
-    };
-    let others: Vec<_> = keys.iter().copied().filter(|it| !own(it)).collect();
-    let once = json!({ "oneOf": [
-        { "required": ["x_mm"] }, { "required": ["t_ms"] }, { "required": ["during"] },
-    ] });
-    let then = both(&json!({ "required": ["mode"] }), &both(&absent(&others), &once));
-    let since = json!({ "dependencies": {
-        "after_ms": ["during"],
-        "until_after_ms": ["until_during"],
-    } });
-    when(&says("kind", &["failure"]), &both(&then, &since))
-}
-
-/// Everything else happens at a place.
-fn placed() -> Value {
-    let kinds: Vec<_> =
-        EVENTS.iter().chain(&INCIDENTS).copied().filter(|it| *it != "failure").collect();
-    when(&says("kind", &kinds), &json!({ "required": ["x_mm"] }))
-}
-
-/// An obstacle costs time, while an operator may answer at once.
-fn obstacles_last() -> Value {
-    let delay = json!({ "properties": { "delay_ms": { "minimum": POSITIVE.start() } } });
-    when(&says("kind", &["obstacle"]), &delay)
-}
-
-fn random_event() -> Value {
-    let needs = [
-        ("name", id("its name, which also names its random numbers")),
-        ("per_km", integer(&PER_KM, "how many on a kilometre")),
-        ("kind", choice(&RANDOM_EVENTS, "what happens")),
-    ];
-    let keys = ["delay_ms", "extra_mm"];
-    let details: Vec<_> = details().into_iter().filter(|it| keys.contains(&it.0)).collect();
-    let rules = [("obstacle", "delay_ms"), ("odometry", "extra_mm")];
-    let rules = rules.map(|(kind, key)| when(&says("kind", &[kind]), &only(&[key], &keys)));
-    let rules = rules.into_iter().chain([obstacles_last()]).collect();
-    with(table(&needs, &details, "something that happens at random places"), "allOf", rules)
 }

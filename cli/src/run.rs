@@ -18,6 +18,7 @@ use cotama_campaign::subject::Policy;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Event, EventKind, Faults, FaultsFile};
+use cotama_models::robots::{Incident, IncidentKind};
 use cotama_pages::mission as page;
 use cotama_sim::options::{FaultChoice, Options, upward};
 use cotama_sim::robots::{Script, Undriven};
@@ -65,12 +66,8 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
             count(number as u64, "fault")
         )),
     }
-    let people = mission.people.drawn + mission.people.walkers.len();
-    if people > 0 && args.fidelity == Fidelity::Line {
-        let people = if people == 1 { "1 person".into() } else { format!("{people} people") };
-        screen.note(&format!(
-            "not simulated on a line: {people} of the mission; --fidelity plane has them"
-        ));
+    if let Some(note) = not_on_a_line(args, &options.faults, &mission) {
+        screen.note(&note);
     }
     let (trace, run) = match Trace::record(&mission, &options) {
         Ok(recorded) => recorded,
@@ -257,14 +254,37 @@ fn faults(named: &str, lost: &[Lost], mission: &Mission) -> Result<FaultChoice, 
     Ok(FaultChoice::Given { source: format!("{source}, hardware lost at the start"), faults })
 }
 
+/// Returns the hint that a line has no people and no doors.
+fn not_on_a_line(args: &RunArgs, faults: &FaultChoice, mission: &Mission) -> Option<String> {
+    let people = mission.people.drawn + mission.people.walkers.len();
+    let is_door = |it: &&Incident| matches!(it.kind, IncidentKind::Door { .. });
+    let doors = of_run(faults, mission).map_or(0, |it| it.of_robot.iter().filter(is_door).count());
+    let people = match people {
+        0 => None,
+        1 => Some("1 person".to_owned()),
+        more => Some(format!("{more} people")),
+    };
+    let doors = (doors > 0).then(|| count(doors as u64, "change of a door"));
+    let what: Vec<_> = people.into_iter().chain(doors).collect();
+    let is_told = args.fidelity == Fidelity::Line && !what.is_empty();
+    is_told.then(|| {
+        format!("not simulated on a line: {}; --fidelity plane has them", what.join(" and "))
+    })
+}
+
+/// The faults of a run; none where it has none.
+fn of_run<'f>(faults: &'f FaultChoice, mission: &'f Mission) -> Option<&'f Faults> {
+    match faults {
+        FaultChoice::None => None,
+        FaultChoice::Script => Some(&mission.run.faults),
+        FaultChoice::Given { faults, .. } => Some(faults),
+    }
+}
+
 /// How many of the faults are passed over: those that only supervisors can deal with, in a run by
 /// plans alone, and the others in one under supervisors.
 fn passed_over(faults: &FaultChoice, mission: &Mission) -> usize {
-    let faults = match faults {
-        FaultChoice::None => return 0,
-        FaultChoice::Script => &mission.run.faults,
-        FaultChoice::Given { faults, .. } => faults,
-    };
+    let Some(faults) = of_run(faults, mission) else { return 0 };
     if mission.is_supervised() { Script::passed_over(faults, mission) } else { 0 }
 }
 

@@ -88,6 +88,12 @@ fn of_robot(text: &mut String, incident: &robots::Incident, mission: &Definition
         robots::IncidentKind::Repair(it) => {
             writeln!(text, "kind = \"repair\"\nmode = \"{}\"", failure(*it))
         }
+        robots::IncidentKind::Door { door, is_open } => {
+            let doors = mission.way.as_ref().and_then(|it| it.doors.as_ref().ok());
+            let name = doors.and_then(|it| it.get(*door)).map_or("", String::as_str);
+            let becomes = if *is_open { "open" } else { "closed" };
+            writeln!(text, "kind = \"door\"\ndoor = {name:?}\nbecomes = \"{becomes}\"")
+        }
         robots::IncidentKind::Operator { answers, delay } => {
             let name = |it: &robots::Answer| match it {
                 robots::Answer::Chooses(it) => part(*it),

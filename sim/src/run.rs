@@ -225,6 +225,13 @@ pub enum Reason {
     TooLong,
     /// The robot ran against something, in the plane.
     Touched,
+    /// A door has closed, and nothing leads to the goal of a drive any more.
+    Blocked {
+        /// Number of the drive.
+        drive: usize,
+        /// Number of the door.
+        door: usize,
+    },
 }
 
 /// Why no plan was found.
@@ -292,6 +299,13 @@ impl Reason {
             }
             Self::TooManyReplans => format!("stopped after {MAX_REPLANS} replans"),
             Self::TooManyChecks => format!("stopped after {MAX_CHECKS} checks"),
+            Self::Blocked { drive, door } => {
+                let way = mission.way.as_ref();
+                let goal = way.and_then(|it| it.asked.to.get(drive)).map_or("its goal", |it| it);
+                let doors = way.and_then(|it| it.doors.as_ref().ok());
+                let door = doors.and_then(|it| it.get(door)).map_or("a door", |it| it);
+                format!("nothing leads to `{goal}` any more: `{door}` is closed")
+            }
             Self::GivenUp => {
                 "the operator gave up, and the global supervisor ended the mission".into()
             }

@@ -146,6 +146,7 @@ fn events_on_a_border_come_before_the_next_activity() {
                     format!("{} fault, {units_left} left", event.x_mm)
                 }
                 Occurrence::Repair { .. } => "repair".into(),
+                Occurrence::Detour { .. } => "detour".into(),
             }),
             _ => None,
         })

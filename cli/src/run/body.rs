@@ -91,6 +91,11 @@ fn event_row(event: &Event) -> EventRow {
             row.kind = "obstacle";
             row.text = "an obstacle in the way".into();
         }
+        Occurrence::Detour { door, extra_mm } => {
+            row.kind = "detour";
+            row.text = format!("`{door}` is closed, {extra_mm} mm more to drive");
+            row.extra_mm = Some(*extra_mm);
+        }
         Occurrence::Odometry { extra_mm } => {
             row.kind = "odometry";
             row.text = format!("the position was wrong, {extra_mm} mm more to drive");

@@ -68,6 +68,8 @@ pub const COUNTS: RangeInclusive<i64> = 0..=i64::MAX;
 /// The kinds of events in every mission.
 pub const EVENTS: [&str; 4] = ["obstacle", "fault", "repair", "odometry"];
 /// The further kinds of events of supervised missions.
-pub const INCIDENTS: [&str; 2] = ["failure", "operator"];
+pub const INCIDENTS: [&str; 3] = ["failure", "operator", "door"];
+/// The states of a door.
+pub const DOOR_STATES: [&str; 2] = ["open", "closed"];
 /// The kinds of random events.
 pub const RANDOM_EVENTS: [&str; 2] = ["obstacle", "odometry"];

@@ -111,8 +111,9 @@ pub struct Way {
     pub asked: Asked,
     /// The problem of the place at which it starts, if there is one.
     pub start: Result<(), Refusal>,
-    /// The problem of the doors, if there is one.
-    pub doors: Result<(), Refusal>,
+    /// The names of the doors that the floor has; the problem of those that the mission names, if
+    /// there is one.
+    pub doors: Result<Vec<String>, Refusal>,
     /// The way to each place of [`Asked::to`].
     pub legs: Vec<Result<Leg, NoLeg>>,
     /// The parts of the whole path, in mm, inside each zone of [`Asked::zones`].

@@ -37,6 +37,13 @@ pub enum IncidentKind {
     },
     /// The failure ends, if it is under way. What is lost stays lost.
     Repair(usize),
+    /// A door of the floor of the mission opens or closes.
+    Door {
+        /// Number of the door.
+        door: usize,
+        /// Whether it opens.
+        is_open: bool,
+    },
     /// The operator answers the next request of the robot from there on.
     Operator {
         /// The answers, one after the other.

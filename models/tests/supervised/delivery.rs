@@ -82,7 +82,9 @@ fn its_script_is_the_timeline_of_the_seven_points() {
                 IncidentKind::Failure { failure, until: None } => {
                     format!("{} {}", x.0, id(*failure))
                 }
-                IncidentKind::Failure { until: Some(_), .. } => panic!("{it:?}"),
+                IncidentKind::Failure { until: Some(_), .. } | IncidentKind::Door { .. } => {
+                    panic!("{it:?}")
+                }
                 IncidentKind::Repair(failure) => format!("{} {} ends", x.0, id(*failure)),
                 IncidentKind::Operator { answers, .. } => {
                     let answers: Vec<_> = answers.iter().map(answer).collect();

@@ -80,7 +80,7 @@ fn events_at_one_place_keep_the_order_of_the_file() {
     let fails = faults.of_robot.iter().map(|it| match it.kind {
         IncidentKind::Failure { failure, .. } => (place(it), id(failure), true),
         IncidentKind::Repair(failure) => (place(it), id(failure), false),
-        IncidentKind::Operator { .. } => unreachable!(),
+        IncidentKind::Operator { .. } | IncidentKind::Door { .. } => unreachable!(),
     });
     let expected = [(6_000, "RT1", false), (6_000, "RT1", true), (7_000, "SON1", true)];
     assert_eq!(fails.collect::<Vec<_>>(), expected);

@@ -89,7 +89,7 @@ impl Floor {
 /// The answer to the names, with paths in metres.
 struct Answer {
     start: Result<(), Refusal>,
-    doors: Result<(), Refusal>,
+    doors: Result<Vec<String>, Refusal>,
     paths: Vec<Result<Path, NoLeg>>,
     zones: Vec<Result<Vec<Range<u64>>, Refusal>>,
     people: Vec<Vec<Result<Leg, NoLeg>>>,
@@ -97,7 +97,10 @@ struct Answer {
 
 fn of_drawing(floor: &Floor, asked: &Asked, needs: Needs) -> Answer {
     let (floor, doors) = match floor.with_doors(&asked.open, &asked.close) {
-        Ok(it) => (it, Ok(())),
+        Ok(it) => {
+            let names = it.doors.iter().map(|it| it.name.clone()).collect();
+            (it, Ok(names))
+        }
         Err(why) => (floor.clone(), Err(why)),
     };
     let paths = match floor.surface(Version::Charted, &[]) {
@@ -123,7 +126,7 @@ fn of_drawing(floor: &Floor, asked: &Asked, needs: Needs) -> Answer {
 
 fn of_map(grid: &Grid, asked: &Asked, needs: Needs) -> Answer {
     let doors = if asked.open.is_empty() && asked.close.is_empty() {
-        Ok(())
+        Ok(Vec::new())
     } else {
         Err(Refusal::new("a map has no doors").help("leave them out"))
     };

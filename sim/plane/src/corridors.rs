@@ -68,7 +68,7 @@ pub fn along(length: Millimetres) -> Option<Way> {
         text: text.into(),
         asked: Asked::default(),
         start: Ok(()),
-        doors: Ok(()),
+        doors: Ok(Vec::new()),
         legs: vec![Ok(leg)],
         zones: Vec::new(),
         people: Vec::new(),

@@ -3,7 +3,7 @@
 use crate::corridors;
 use crate::drivetrain::{Drivetrain, SPARE};
 use crate::people;
-use crate::track::Track;
+use crate::track::{Near, Rest, Track};
 use cotama_devices::{Habits, People, Routes, SettingsError, Streams, Walker};
 use cotama_floor::{Floor, Held, Needs, Planner, Point, Pose, Surface, metres};
 use cotama_models::missions::{Leg, Mission, Way};
@@ -84,12 +84,12 @@ fn around(way: Way, surface: &dyn Surface, drivetrain: &Drivetrain) -> Way {
 }
 
 #[allow(clippy::cast_possible_truncation)] // points of a floor
-fn in_mm(it: &Point) -> [i32; 2] {
+pub(crate) fn in_mm(it: &Point) -> [i32; 2] {
     [(it.x * 1_000.0).round() as i32, (it.y * 1_000.0).round() as i32]
 }
 
 /// Whether a robot can follow straight pieces without touching anything.
-fn is_free(points: &[[i32; 2]], surface: &dyn Surface, drivetrain: &Drivetrain) -> bool {
+pub(crate) fn is_free(points: &[[i32; 2]], surface: &dyn Surface, drivetrain: &Drivetrain) -> bool {
     points.iter().zip(points.iter().skip(1)).all(|(from, to)| {
         let (from, to) = (metres(*from), metres(*to));
         let way = to - from;
@@ -104,6 +104,12 @@ fn is_free(points: &[[i32; 2]], surface: &dyn Surface, drivetrain: &Drivetrain) 
         }
         true
     })
+}
+
+/// Whether a robot has little room at a point.
+fn is_tight(surface: &dyn Surface, drivetrain: &Drivetrain, at: Point) -> bool {
+    let room = drivetrain.footprint.radius() + TIGHT;
+    surface.clearance(at, room) < room
 }
 
 impl Course {
@@ -124,9 +130,7 @@ impl Course {
         let [real, charted] = Held::of(&way).map_err(why)?;
         let surface = real.surface();
         let way = around(way, surface, &drivetrain);
-        let radius = drivetrain.footprint.radius();
-        let is_tight = |at: Point| surface.clearance(at, radius + TIGHT) < radius + TIGHT;
-        let track = Track::of(&way, &drivetrain, is_tight)
+        let track = Track::of(&way, &drivetrain, |at| is_tight(surface, &drivetrain, at))
             .ok_or_else(|| why("the path has no length".into()))?;
         if !surface.is_free(&drivetrain.footprint, &track.start()) {
             return Err(NoCourse::Start);
@@ -210,6 +214,23 @@ impl Course {
     /// Returns the path.
     pub const fn track(&self) -> &Track {
         &self.track
+    }
+
+    /// Lets the floor be another one.
+    pub(crate) fn stand_on(&mut self, real: Held) {
+        self.real = real;
+    }
+
+    /// Leads the path from a place on over these parts; returns that place.
+    pub(crate) fn lead(&mut self, from: Near, rests: &[Rest]) -> Near {
+        let (track, near) = self.track.onto(from, rests, &self.drivetrain);
+        (self.back, self.track) = (track.back(&self.drivetrain), track);
+        near
+    }
+
+    /// Whether the robot has little room at a point.
+    pub(crate) fn is_tight(&self, at: Point) -> bool {
+        is_tight(self.surface(), &self.drivetrain, at)
     }
 
     /// Returns the path that leads back.

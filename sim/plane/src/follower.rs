@@ -37,6 +37,11 @@ impl Follower {
         Self { near, turns: false }
     }
 
+    /// Returns the place on the path.
+    pub(crate) const fn near(&self) -> Near {
+        self.near
+    }
+
     /// Returns the length along the path.
     pub const fn along(&self) -> f64 {
         self.near.along

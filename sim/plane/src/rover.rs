@@ -1,6 +1,8 @@
 //! A robot on the path of its mission.
 
 use crate::course::Course;
+use crate::detours::Detours;
+use crate::doors::Doors;
 use crate::drive::{Drive, Signals};
 use crate::fault::DriveFault;
 use crate::follower::{Follower, STEP};
@@ -11,10 +13,22 @@ use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_devices::{Disc, People, SettingsError};
 use cotama_floor::Pose;
 
+mod doors;
+
+use doors::Halts;
+pub use doors::Met;
+
 /// A robot that follows the path of its mission, and knows where it is.
 #[derive(Clone, Debug)]
 pub struct Rover<'c> {
     course: &'c Course,
+    /// The course of this run alone, where the floor or the path changed.
+    own: Option<Box<Course>>,
+    doors: Option<Box<Doors>>,
+    detours: Detours,
+    /// Whether it stops before a door.
+    halts: Halts,
+    met: Option<Met>,
     vehicle: Vehicle,
     drive: Drive,
     seed: u64,
@@ -25,6 +39,8 @@ pub struct Rover<'c> {
     /// The way to drive before it gets on along its path.
     owed: Millimetres,
     aside: Aside,
+    /// The length along its path at which it turned back last.
+    turned: f64,
     moved: bool,
     touches: bool,
     /// Whether it touched something in the last period.
@@ -71,6 +87,11 @@ impl<'c> Rover<'c> {
         });
         Self {
             course,
+            own: None,
+            doors: None,
+            detours: Detours::default(),
+            halts: Halts::No,
+            met: None,
             vehicle: Vehicle::new(start),
             drive: Drive::new(course.drivetrain()),
             seed,
@@ -79,6 +100,7 @@ impl<'c> Rover<'c> {
             x: Millimetres(0),
             owed: Millimetres(0),
             aside: Aside::No,
+            turned: 0.0,
             moved: false,
             touches: false,
             is_pressed: false,
@@ -118,7 +140,7 @@ impl<'c> Rover<'c> {
 
     /// Returns the signals of motors, encoders and the battery.
     pub fn signals(&self) -> Signals {
-        self.drive.signals(self.vehicle.counts(self.course.drivetrain()))
+        self.drive.signals(self.vehicle.counts(self.course().drivetrain()))
     }
 
     /// Gives faults to the drive in place of those that it has; their times count from the start.
@@ -212,8 +234,8 @@ impl<'c> Rover<'c> {
     }
 
     /// Returns the course that it goes.
-    pub const fn course(&self) -> &'c Course {
-        self.course
+    pub fn course(&self) -> &Course {
+        self.own.as_deref().unwrap_or(self.course)
     }
 
     /// Returns its wheels and their speeds.
@@ -227,8 +249,10 @@ impl<'c> Rover<'c> {
     }
 
     /// Returns the way that is left to drive beside its path.
-    pub const fn owed(&self) -> Millimetres {
-        self.owed
+    pub fn owed(&self) -> Millimetres {
+        let longer = self.detours.owed(self.x.0 as f64 / 1_000.0, self.along());
+        let longer = if self.detours.is_none() { 0 } else { milli(longer) };
+        Millimetres(self.owed.0 + longer)
     }
 
     /// Owes a way beside its path: it turns back and comes again before it goes on.
@@ -239,7 +263,7 @@ impl<'c> Rover<'c> {
     /// Returns how far it would still go if it braked now.
     pub fn braking_distance(&self) -> Millimetres {
         let speed = self.vehicle.speeds().speed;
-        Millimetres(milli(speed * speed / (2.0 * self.course.drivetrain().acceleration)))
+        Millimetres(milli(speed * speed / (2.0 * self.course().drivetrain().acceleration)))
     }
 
     /// Stands at once.
@@ -254,6 +278,8 @@ impl<'c> Rover<'c> {
         self.is_pressed = false;
         self.now.0 += time.0;
         let towards = towards.0 as f64 / 1_000.0;
+        self.see_doors();
+        let towards = if self.halts == Halts::No { towards } else { 0.0 };
         let slowed = if self.people.is_some() { self.among_people(towards) } else { towards };
         let is_blind = self.belief.is_some() && !self.is_led;
         let towards = if is_blind { towards } else { slowed };
@@ -267,7 +293,8 @@ impl<'c> Rover<'c> {
         while steps > 0 {
             steps -= self.step(towards, end, steps);
         }
-        self.odometry.read(self.course.drivetrain(), self.vehicle.counts(self.course.drivetrain()));
+        let drivetrain = self.own.as_deref().unwrap_or(self.course).drivetrain();
+        self.odometry.read(drivetrain, self.vehicle.counts(drivetrain));
     }
 
     /// Whether its last step, from where it was before, led it further into a thing.
@@ -281,7 +308,8 @@ impl<'c> Rover<'c> {
     /// Returns the speed at which it still stands before it comes close to somebody on its path: it
     /// knows where people are.
     fn among_people(&mut self, towards: f64) -> f64 {
-        let (course, along) = (self.course, self.follower.along());
+        let course = self.own.as_deref().unwrap_or(self.course);
+        let along = self.follower.along();
         let robot = Disc {
             centre: self.vehicle.pose().translation.vector.into(),
             radius: course.drivetrain().footprint.radius(),
@@ -315,11 +343,12 @@ impl<'c> Rover<'c> {
         }
         let goal = match self.aside {
             Aside::No if self.owed.0 > 0 => self.follower.along(), // brakes, to turn back
-            Aside::No => end.0 as f64 / 1_000.0,
+            Aside::No => self.detours.goal(end.0 as f64 / 1_000.0),
             Aside::Back(to) => to,
-            Aside::Forth => self.x.0 as f64 / 1_000.0,
+            Aside::Forth if self.detours.is_none() => self.x.0 as f64 / 1_000.0,
+            Aside::Forth => self.turned,
         };
-        let course = self.course;
+        let course = self.own.as_deref().unwrap_or(self.course);
         let (track, drivetrain) = (
             if matches!(self.aside, Aside::Back(_)) { course.back() } else { course.track() },
             course.drivetrain(),
@@ -353,13 +382,13 @@ impl<'c> Rover<'c> {
         // A robot that is not to move is nowhere else than it was.
         if along + AT < goal || speed == 0.0 {
             if self.aside == Aside::No {
-                self.x = self.x.max(Millimetres(floor_milli(along).min(end.0)));
+                self.x = self.reached(along, end);
             }
             return steps;
         }
         match self.aside {
             Aside::No if self.owed.0 > 0 => {
-                self.x = self.x.max(Millimetres(floor_milli(along).min(end.0)));
+                self.x = self.reached(along, end);
             }
             Aside::No => {
                 self.x = self.x.max(end);
@@ -379,19 +408,25 @@ impl<'c> Rover<'c> {
         steps
     }
 
+    /// Returns how far it is along its path, no further than an end, and never less than before.
+    fn reached(&self, along: f64, end: Millimetres) -> Millimetres {
+        self.x.max(Millimetres(floor_milli(self.detours.x(along)).min(end.0)))
+    }
+
     /// Turns back for half of the way that is owed, as far as there is path behind it.
     fn turn_back(&mut self) {
         let along = self.follower.along();
         let half = (self.owed.0 as f64 / 2_000.0).min(along);
-        let back = self.course.track().length() - along;
+        self.turned = along;
+        let back = self.course().track().length() - along;
         self.aside = Aside::Back(back + half);
         let at = self.believed().translation.vector.into();
-        self.follower = Follower::new(self.course.back().find(at, back - 0.1, back + 0.1).0);
+        self.follower = Follower::new(self.course().back().find(at, back - 0.1, back + 0.1).0);
     }
 
     fn follow(&mut self, along: f64) {
         let at = self.believed().translation.vector.into();
-        self.follower = Follower::new(self.course.track().find(at, along - 0.1, along + 0.1).0);
+        self.follower = Follower::new(self.course().track().find(at, along - 0.1, along + 0.1).0);
     }
 }
 

@@ -46,6 +46,39 @@ pub struct Near {
     pub along: f64,
 }
 
+/// A part of a path: the corners behind its start, each with the length from there.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Rest {
+    pub(crate) corners: Vec<(Point, f64, bool)>,
+}
+
+impl Rest {
+    /// A way from its first point; `is_tight` says where there is little room.
+    pub(crate) fn of(points: &[Point], is_tight: impl Fn(Point) -> bool) -> Self {
+        let mut gone = 0.0;
+        let ways = points.iter().zip(points.iter().skip(1));
+        let corner = |(from, to): (&Point, &Point)| {
+            gone += (to - from).norm();
+            (*to, gone, is_tight(*to))
+        };
+        Self { corners: ways.map(corner).collect() }
+    }
+
+    /// Returns the length.
+    pub(crate) fn length(&self) -> f64 {
+        self.corners.last().map_or(0.0, |it| it.1)
+    }
+
+    /// The same, counted as no shorter than a length.
+    pub(crate) fn no_shorter_than(self, length: f64) -> Self {
+        let scale = (length / self.length().max(1e-9)).max(1.0);
+        Self { corners: self.corners.iter().map(|it| (it.0, it.1 * scale, it.2)).collect() }
+    }
+}
+
+/// Lengths along a track that are the same, in metres.
+const SAME: f64 = 1e-6;
+
 /// The way in which a robot takes a bend, in metres.
 const BEND: f64 = 0.5;
 /// The angles from which a robot turns on the spot, in radians: at corners with little room, 3
@@ -118,6 +151,45 @@ impl Track {
         let turned = self.corners.iter().rev();
         let turned = turned.map(|it| Corner { along: length - it.along, ..*it }).collect();
         Self::through(turned, drivetrain)
+    }
+
+    /// Returns the place after a length.
+    pub(crate) fn at(&self, along: f64) -> Near {
+        let pieces = self.corners.len().saturating_sub(2);
+        let ends = |it: &usize| self.end(*it).0 + SAME >= along;
+        Near { piece: (0..pieces).find(ends).unwrap_or(pieces), along }
+    }
+
+    /// Returns the part from a place up to a length.
+    pub(crate) fn part(&self, from: Near, to: f64) -> Rest {
+        let behind = self.corners.iter().skip(from.piece + 1);
+        let behind = behind.filter(|it| it.along > from.along + SAME && it.along < to - SAME);
+        let mut corners: Vec<_> =
+            behind.map(|it| (it.at, it.along - from.along, it.is_tight)).collect();
+        let end = self.corners.iter().find(|it| (it.along - to).abs() <= SAME);
+        let at =
+            end.map_or_else(|| self.pose(from.piece, to).translation.vector.into(), |it| it.at);
+        corners.push((at, to - from.along, end.is_some_and(|it| it.is_tight)));
+        Rest { corners }
+    }
+
+    /// The same up to a place, and then these parts, one after the other; with that place.
+    pub(crate) fn onto(&self, near: Near, rests: &[Rest], drivetrain: &Drivetrain) -> (Self, Near) {
+        let before = self.corners.iter().take_while(|it| it.along < near.along - SAME);
+        let mut corners: Vec<_> = before.copied().collect();
+        let at = self.pose(near.piece, near.along).translation.vector.into();
+        let piece = corners.len();
+        corners.push(Corner { at, along: near.along, is_tight: true });
+        let mut start = near.along;
+        for rest in rests {
+            for (at, along, is_tight) in &rest.corners {
+                if corners.last().is_none_or(|it| it.at != *at) {
+                    corners.push(Corner { at: *at, along: start + along, is_tight: *is_tight });
+                }
+            }
+            start += rest.length();
+        }
+        (Self::through(corners, drivetrain), Near { piece, along: near.along })
     }
 
     /// Returns the corners.

@@ -3,7 +3,7 @@
 use super::{Drive, FIRMWARE_WATCHDOG};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::robots::{Harmed, Robot};
-use cotama_plane::{Course, Rover};
+use cotama_plane::{Course, Met, Rover};
 use cotama_senses::{Bench, Senses, Uses};
 
 /// Something that goes along a path, and that failures hold back.
@@ -184,6 +184,18 @@ impl<'c> Mover<'c> {
         if let Some(rover) = self.rover_mut() {
             rover.owe(way);
         }
+    }
+
+    /// Opens or closes a door of the floor; on a line there are none.
+    pub(crate) fn set_door(&mut self, door: usize, is_open: bool) {
+        if let Some(rover) = self.rover_mut() {
+            rover.set_door(door, is_open);
+        }
+    }
+
+    /// Returns what became of a door in its way in the last period.
+    pub(crate) fn take_met(&mut self) -> Option<Met> {
+        self.rover_mut()?.take_met()
     }
 
     /// Returns the way that is left beside the path.

@@ -37,7 +37,10 @@ impl Run {
             Outcome::Failed if self.time >= LONGEST => Some(Reason::TooLong),
             Outcome::Failed => exceeded
                 .map(|axis| Reason::LimitExceeded { axis, by: self.used[axis] - limits[axis] }),
-            Outcome::Safe => Some(self.ended()),
+            Outcome::Safe => Some(match self.blocked {
+                Some((drive, door)) => Reason::Blocked { drive, door },
+                None => self.ended(),
+            }),
         }
     }
 

@@ -8,7 +8,7 @@ use super::failing::Failures;
 use super::hindered::Hindered;
 use super::monitor::Watching;
 use super::operator::Operator;
-use super::{Conduct, Injection, Run, Script};
+use super::{Conduct, DoorChange, Injection, Run, Script};
 use crate::body::{Drive, Ground, Mover};
 use crate::plan::{Planning, Progress};
 use crate::record::{Recorder, Silent};
@@ -40,6 +40,7 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     pub(super) drive: Mover<'m>,
     energy_uj: u64,
     waiting: Vec<Injection>,
+    doors: Vec<DoorChange>,
     until: Vec<Option<Moment>>,
     failures: Failures,
     hindered: Hindered,
@@ -141,10 +142,12 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             ended_by: None,
             fired: BTreeSet::new(),
             touched: None,
+            blocked: None,
             violated: None,
         };
         let drive = Mover::new(robot, ground);
         let signals = drive.flags();
+        let doors = if drive.line().is_some() { Vec::new() } else { script.doors.clone() };
         Some(Self {
             mission,
             robot,
@@ -155,6 +158,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             drive,
             energy_uj: 0,
             waiting: script.injections.clone(),
+            doors,
             until: Vec::new(),
             failures: Failures { period: body.period, signals, ..Failures::default() },
             hindered: Hindered::new(&script.events, &script.power_errors),
@@ -241,13 +245,14 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         self.fail(recording);
         let happened = self.hindered.happen(self.now, &mut self.drive);
         self.travel();
+        let met = self.meet(recording);
         let is_even =
             |(now, before): (&Drive, Drive)| now.is_steady_since(&before, self.body.period);
         self.calm &= self.drive.line().zip(before).is_some_and(is_even);
         if self.failures.thinks(self.robot) {
             self.observe(recording);
             self.see(self.now);
-            if !happened.is_empty() || self.looks_at_margins() {
+            if !happened.is_empty() || met || self.looks_at_margins() {
                 self.watch_margins(recording);
             }
             self.round(recording);
@@ -268,6 +273,9 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             return Some(Outcome::Failed);
         }
         let stands = self.drive.stands();
+        if stands && self.run.blocked.is_some() {
+            return Some(self.within(Outcome::Safe));
+        }
         let left_alone = !self.failures.thinks(self.robot)
             && stands
             && (!self.level().permits() || self.failures.is_abandoned(self.robot, self.now));
@@ -314,6 +322,10 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let ends = |it: usize| ended.get(it).copied().unwrap_or(false);
         self.failures.end(self.robot, self.now, ends);
         self.calm &= due.is_empty();
+        let (open, wait): (Vec<_>, Vec<_>) =
+            std::mem::take(&mut self.doors).into_iter().partition(|it| self.is_due(it.when));
+        self.doors = wait;
+        open.iter().for_each(|it| self.drive.set_door(it.door, it.is_open));
         for it in due {
             self.begin(it.failure, it.until, recording);
         }

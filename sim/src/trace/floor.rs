@@ -22,6 +22,9 @@ pub struct FloorText {
     /// The zones that the mission names, with the parts of the path in each, in mm.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub zones: Vec<(String, Vec<(u64, u64)>)>,
+    /// The names of its doors.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub doors: Vec<String>,
     /// The ways of the people whom the mission names.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub people: Vec<Vec<LegText>>,
@@ -50,6 +53,7 @@ impl FloorText {
             legs: way.legs.iter().flatten().map(LegText::of).collect(),
             places_mm: Vec::new(),
             zones: zones.filter_map(zone).collect(),
+            doors: way.doors.clone().unwrap_or_default(),
             people: { way.people.iter() }
                 .map(|it| it.iter().flatten().map(LegText::of).collect())
                 .collect(),
@@ -68,7 +72,7 @@ impl FloorText {
             source: self.source.clone(),
             text: self.text.as_str().into(),
             start: Ok(()),
-            doors: Ok(()),
+            doors: Ok(self.doors.clone()),
             legs: self.legs.iter().map(|it| Ok(it.leg())).collect(),
             zones: asked.zones.iter().map(zone).collect(),
             people: { self.people.iter() }
@@ -87,6 +91,7 @@ impl FloorText {
             places_mm: ways.places.iter().flatten().copied().collect(),
             zones: Vec::new(),
             people: Vec::new(),
+            doors: Vec::new(),
         }
     }
 

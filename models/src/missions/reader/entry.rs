@@ -39,4 +39,6 @@ pub(super) struct Names<'n> {
     pub(super) hardware: &'n [Entry<Hardware>],
     /// The robot from a file whose supervisors decide, if it is one.
     pub(super) robot: Option<&'n Robot>,
+    /// The doors of the floor; `None` where the mission names no floor.
+    pub(super) doors: Option<&'n [String]>,
 }

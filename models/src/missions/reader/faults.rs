@@ -74,7 +74,8 @@ impl FaultsFile {
         let hardware: Vec<_> = mission.hardware.iter().map(kind).collect();
         let robot = mission.under.as_ref().map(|it| it.file.robot());
         let path_length = Some(mission.path_length);
-        let names = Names { path_length, zones: &zones, hardware: &hardware, robot };
+        let doors = mission.way.as_ref().and_then(|it| it.doors.as_deref().ok());
+        let names = Names { path_length, zones: &zones, hardware: &hardware, robot, doors };
         let file = fields::document(text, &sink, FORMAT, |mut root| {
             let faults = read(&mut root, &names);
             let planner = root.optional_table("planner").map(|it| it.map(recorded::planner));

@@ -10,6 +10,9 @@ use cotama_core::units::Millimetres;
 /// Keys whose lengths a floor says.
 const LENGTHS: [&str; 3] = ["path_length_mm", "x_start_mm", "x_end_mm"];
 
+/// A door whose name is not known.
+const UNREAD: &[String] = &[String::new()];
+
 /// The floor of a mission, and how far its objectives were read.
 pub(super) struct Ground<'w> {
     /// The way; `None` where there is none, which is reported.
@@ -45,6 +48,11 @@ impl<'w> Ground<'w> {
             }
         }
         Some(Self { way: Some(way), next: 0, at: Some(Millimetres(0)) })
+    }
+
+    /// The doors of the floor, by name; none of a map. Those of a floor that is refused have no name.
+    pub(super) fn doors(&self) -> &'w [String] {
+        self.way.map_or(UNREAD, |it| it.doors.as_deref().unwrap_or(UNREAD))
     }
 
     /// The ways of a person, by the number in the file.

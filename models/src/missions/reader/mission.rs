@@ -64,6 +64,7 @@ pub(in crate::missions) fn definition_of(
         zones: &zones,
         hardware: &hardware,
         robot: robot.map(RobotFile::robot),
+        doors: ground.as_ref().map(Ground::doors),
     };
     let run = root.optional_table("run").ok().and_then(|run| faults::run(run, &names));
     let people = people::people(&mut root, ground.as_ref());
@@ -129,7 +130,7 @@ pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition
     let objectives =
         all(root.tables("objective", true), |table| objective(table, None, &tios, false));
     one_after_the_other(&root, path_length, &objectives);
-    let names = Names { path_length, zones: &zones, hardware: &hardware, robot: None };
+    let names = Names { path_length, zones: &zones, hardware: &hardware, robot: None, doors: None };
     let run = root.optional_table("run").ok().and_then(|run| faults::run(run, &names));
     unique(&root, "option", items(&tios).map(|it| (&it.id, &it.span)));
     unique(&root, "zone", items(&zones).map(|it| (&it.id, &it.span)));

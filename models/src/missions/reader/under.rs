@@ -4,7 +4,7 @@ use super::entry::Names;
 use super::fields::{Fields, Reported};
 use super::moments::on_the_path;
 use crate::missions::diagnostic::{Diagnostic, Spanned};
-use crate::missions::known::AT_LEAST_ZERO;
+use crate::missions::known::{AT_LEAST_ZERO, DOOR_STATES, INCIDENTS};
 use crate::robots::{Answer, Incident, IncidentKind, Mode, Moment, Robot};
 use cotama_core::units::{Millimetres, Millis};
 
@@ -16,7 +16,7 @@ const OTHERS: [(&str, Answer); 2] = [("done", Answer::Done), ("give_up", Answer:
 /// Whether an event is one that the supervisors of a robot deal with.
 pub(super) fn is_incident(fields: &Fields<'_>) -> bool {
     let has = |key| fields.has(key);
-    has("mode") || has("answers") || has("during") || fields.says("kind", &["failure", "operator"])
+    has("mode") || has("answers") || has("during") || fields.says("kind", &INCIDENTS)
 }
 
 /// Reads an incident.
@@ -25,7 +25,7 @@ pub(super) fn incident(
     robot: &Robot,
     names: &Names<'_>,
 ) -> Option<Incident> {
-    let kind = fields.choice("kind", "event", &["failure", "repair", "operator"]);
+    let kind = fields.choice("kind", "event", &["failure", "repair", "operator", "door"]);
     let when = moment(&mut fields, robot, ["x_mm", "t_ms", "during", "after_ms"]);
     let kind = match kind {
         Some("failure") => failure(&mut fields, robot).map(|failure| {
@@ -33,6 +33,7 @@ pub(super) fn incident(
             let until = moment(&mut fields, robot, keys);
             until.ok().map(|until| IncidentKind::Failure { failure, until })
         }),
+        Some("door") => Some(door(&mut fields, names)),
         Some("repair") => failure(&mut fields, robot).map(|it| Some(IncidentKind::Repair(it))),
         Some(_) => Some(operator(&mut fields, robot)),
         None => {
@@ -50,13 +51,27 @@ pub(super) fn incident(
     }
     if let (Ok(Some(Moment::During(..) | Moment::Waiting(_) | Moment::At(_))), Some(Some(it))) =
         (&when, &kind)
-        && !matches!(it, IncidentKind::Failure { .. })
+        && !matches!(it, IncidentKind::Failure { .. } | IncidentKind::Door { .. })
     {
         let it = Diagnostic::new(fields.whole(), "this happens at a place", "not by place");
         fields.report(it.help("write `x_mm`"));
     }
     fields.finish();
     Some(Incident { when: when.ok()??, kind: kind?? })
+}
+
+/// Reads which door opens or closes.
+fn door(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<IncidentKind> {
+    let door = fields.text("door");
+    let becomes = fields.choice("becomes", "state of a door", &DOOR_STATES);
+    let Some(doors) = names.doors else {
+        let message = "a door is one of a floor, and the mission names none";
+        let it = Diagnostic::new(fields.whole(), message, "without a floor");
+        fields.report(it.help("leave this event out, or name a `floor` in the mission"));
+        return None;
+    };
+    let door = fields.index_of(&door?, "door of the floor", doors.iter().map(String::as_str))?;
+    Some(IncidentKind::Door { door, is_open: becomes? == "open" })
 }
 
 /// Reads which failure.

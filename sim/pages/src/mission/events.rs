@@ -38,6 +38,11 @@ pub(super) fn short(event: &Event) -> (&'static str, String, String) {
             let words = format!("repair of {hardware}: {units_back} back, {units_left} work");
             ("repair", format!("{hardware} +{units_back}"), words)
         }
+        Occurrence::Detour { door, extra_mm } => {
+            let extra = trimmed(*extra_mm);
+            let words = format!("{door} is closed: {extra} m of extra path");
+            ("odometry", format!("+{extra} m"), words)
+        }
         Occurrence::Odometry { extra_mm } => {
             let extra = trimmed(*extra_mm);
             (

@@ -70,7 +70,11 @@ fn happened(view: &View<'_>) -> String {
             Occurrence::Repair { hardware, units_back, .. } => {
                 parts.push(format!("{units_back} {hardware} came back at {at}"));
             }
-            _ => {}
+            Occurrence::Detour { door, extra_mm } => {
+                let extra = metres(*extra_mm);
+                parts.push(format!("{door} was closed at {at}, which took {extra} more"));
+            }
+            Occurrence::Obstacle { .. } | Occurrence::Odometry { .. } => {}
         }
     }
     if parts.is_empty() {

@@ -1,11 +1,14 @@
 //! How a robot moves in a period, what it draws, and what of it must never happen.
 
 use super::World;
+use super::records::Recording;
 use crate::body::Moves;
+use crate::record::Recorder;
 use crate::robots::failing::{Demand, mode};
 use cotama_core::player::Program;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Milliwatts};
 use cotama_models::robots::{Global, Mode, Module, Parts, Role, Where, members};
+use cotama_plane::Met;
 use cotama_senses::Uses;
 
 impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
@@ -27,6 +30,23 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         self.energy_uj = self.energy_uj.saturating_add(power.0.saturating_mul(self.body.period.0));
         self.run.moved_when_safe |= moved && self.global == Global::Safe;
         self.measure(before, permitted);
+    }
+
+    /// Meets a door that stands otherwise than the robot knew; returns whether it goes another way.
+    pub(super) fn meet<R: Recorder>(&mut self, recording: &mut Recording<'_, R>) -> bool {
+        match self.drive.take_met() {
+            None => false,
+            Some(Met::Detour { door, extra }) => {
+                self.record_detour(recording, door, extra);
+                true
+            }
+            Some(Met::Blocked { door }) => {
+                let before = self.mission.objectives.iter().take(self.objective);
+                let drive = before.filter(|it| it.travels()).count();
+                self.run.blocked = Some((drive, door));
+                false
+            }
+        }
     }
 
     /// Tells a robot that is told nothing what runs, and what failures harm.

@@ -6,11 +6,11 @@ use crate::run::Reason;
 use crate::trace::supervised::{
     Autonomy, Configured, Decision, Diagnosis, Exposure, Failure, Fired, Status, Told,
 };
-use crate::trace::{Activity, End, Pose, Record, Request, Sample};
+use crate::trace::{Activity, End, Event, Occurrence, Pose, Record, Request, Sample};
 use cotama_core::net::TransitionId;
 use cotama_core::player::Program;
 use cotama_core::system::Of;
-use cotama_core::units::Millis;
+use cotama_core::units::{Millimetres, Millis};
 use cotama_models::level::Cause;
 use cotama_models::robots::{self, Mode, Where, members};
 use cotama_models::severity::Class;
@@ -114,6 +114,19 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
                 by_availability: decided.map_or(Class::Record, class),
             })
         });
+    }
+
+    pub(super) fn record_detour<R: Recorder>(
+        &self,
+        to: &mut Recording<'_, R>,
+        door: usize,
+        extra: Millimetres,
+    ) {
+        let (t_us, x_mm) = self.here();
+        let doors = self.mission.way.as_ref().and_then(|it| it.doors.as_ref().ok());
+        let door = doors.and_then(|it| it.get(door)).cloned().unwrap_or_default();
+        let event = Occurrence::Detour { door, extra_mm: extra.0 };
+        to.put(|| Record::Event(Event { t_us, x_mm, event, random: None, lost_us: 0 }));
     }
 
     pub(super) fn record_told<R: Recorder>(&self, to: &mut Recording<'_, R>, told: robots::Told) {
