@@ -15,7 +15,6 @@ use cotama_core::team::Team;
 use cotama_models::team::instance::{
     Assignment, Instance, InstancePlan, PlanProof, Proof, Verdict,
 };
-use cotama_models::team::scenario::Scenario;
 
 /// Solves one instance.
 pub(crate) fn assign(args: &AssignArgs, screen: &Screen) -> Result<Exit, Failure> {
@@ -50,7 +49,7 @@ fn instance(path: &str) -> Result<Instance, Failure> {
     let text = kind::text(path, what, input::INSTANCE_BYTES, &wanted)?;
     let name = input::name(path);
     if kind::is_of(&text, Kind::TeamAtWork) {
-        return Ok(Instance::from(&Scenario::parse(name, &text)?));
+        return Ok(Instance::from(&team::read(path, name, &text)?));
     }
     Ok(Instance::parse(name, &text)?)
 }

@@ -19,6 +19,7 @@ use cotama_campaign::statistics::{Decision, Interval};
 use cotama_campaign::strategy::BLOCK;
 use cotama_campaign::subject::{Policy, Subject};
 use cotama_models::missions::Mission;
+use cotama_models::team::scenario::On;
 use cotama_pages::campaign::{self as page, Shown};
 use cotama_sim::options::STEPS;
 use cotama_sim::trace::{FloorText, RobotText};
@@ -95,14 +96,16 @@ fn of_team(args: &CampaignArgs, team: &Chosen, screen: &Screen) -> Result<Exit, 
     }
     let source = args.scenario.as_str();
     let settings = asked::settings(args, asked::Of::Team, source, None)?;
-    let subject = Subject::of_team(team.scenario(), None).named(source);
+    let scenario = team.scenario();
+    let floor = scenario.floor.on().and_then(On::ways).map(FloorText::of_team);
+    let subject = Subject::of_team(scenario, None).named(source);
     let campaign =
         Campaign::new(subject, settings).map_err(|it| Failure::of(source, it.to_string()))?;
     let texts = (source, team.text());
     let shard = args.shard.unwrap_or(Shard::ALL);
     let texts = (texts.0, texts.1.as_str());
     let header = Header::new(texts, &campaign.settings, args.policy().name(), shard);
-    conduct(args, &header, &campaign, screen)
+    conduct(args, &Header { floor, ..header }, &campaign, screen)
 }
 
 /// Runs what is not stored yet, and answers.

@@ -15,6 +15,8 @@ use cotama_floor::map_server::{Map, Metadata};
 use cotama_floor::{Cell, Floor, Grid, Ground, Needs, Surface, embedded, metres, picture};
 use cotama_models::missions::{Asked, NoLeg, Refusal, Way};
 use cotama_models::robots::RobotFile;
+use cotama_models::team::scenario::{self, Ways};
+use cotama_sim::fleet::floors;
 use std::ops::Range;
 use std::path::Path;
 
@@ -89,17 +91,29 @@ pub(crate) fn way(
 ) -> Result<Option<Way>, Failure> {
     let radius = robot.and_then(|it| it.robot().body.as_ref()).map(|it| it.radius.0);
     let needs = radius.map_or(Needs::default(), needs);
-    let beside = folder.map(|it| it.join(&asked.floor)).filter(|it| it.exists());
-    let name = match beside {
-        Some(file) => file.display().to_string(),
-        None if embedded::named(&asked.floor).is_some() => asked.floor.clone(),
-        None => return Ok(None),
-    };
-    let text = match embedded::named(&name) {
-        Some(it) => it.text.to_owned(),
-        None => input::text(&name, "a floor", FLOOR_BYTES)?,
-    };
+    let Some((name, text)) = named(&asked.floor, folder)? else { return Ok(None) };
     Ok(Some(read(&name, screen)?.ground().way(&name, &text, asked, needs)))
+}
+
+/// Plans the ways of a team over the floor that it names, for its robots; `None` where there is no
+/// such floor beside the team, which the reader of teams says.
+///
+/// # Errors
+/// When the floor cannot be read.
+pub(crate) fn ways(asked: scenario::Asked, folder: Option<&Path>) -> Result<Option<Ways>, Failure> {
+    let Some((name, text)) = named(&asked.floor, folder)? else { return Ok(None) };
+    Ok(Some(read(&name, None)?.ground().ways(&name, &text, asked, floors::needs())))
+}
+
+/// The name and the text of a floor beside a file, or else of one that ships; `None` where there is
+/// neither.
+fn named(floor: &str, folder: Option<&Path>) -> Result<Option<(String, String)>, Failure> {
+    let beside = folder.map(|it| it.join(floor)).filter(|it| it.exists());
+    let Some(file) = beside.map(|it| it.display().to_string()) else {
+        return Ok(embedded::named(floor).map(|it| (floor.to_owned(), it.text.to_owned())));
+    };
+    let text = input::text(&file, "a floor", FLOOR_BYTES)?;
+    Ok(Some((file, text)))
 }
 
 /// The drawing of a name, or in a file.

@@ -31,12 +31,11 @@ pub(crate) fn list(args: &ListArgs, screen: &Screen) -> Result<Exit, Failure> {
         .iter()
         .map(|it| Listed { name: it.0.name().to_owned(), description: it.1.to_owned() });
     let scenarios = scenarios.collect();
-    let maps = [
-        ("office", "An office floor: rooms, two corridors, glass, narrow doors, a dock"),
-        ("clinic", "A clinic: a corridor around a court, wards, a lift lobby, a dock, marks"),
-    ];
-    let maps = maps.map(|(name, of)| Listed { name: name.to_owned(), description: of.to_owned() });
-    let maps = Vec::from(maps);
+    let maps = cotama_floor::embedded::ALL.iter().map(|it| Listed {
+        name: it.name.trim_end_matches(".toml").to_owned(),
+        description: it.description.to_owned(),
+    });
+    let maps = maps.collect();
     let answer = ListAnswer { schema: "cotama/list/1", missions, models, robots, scenarios, maps };
     if args.json.json {
         Screen::json(&answer)?;

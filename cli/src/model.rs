@@ -263,7 +263,7 @@ fn file(path: &str) -> Result<Found, Failure> {
     kind::expect(path, &bytes, WHAT, &kind::MODELS)?;
     if kind::is_of(&bytes, FileKind::TeamAtWork) {
         let text = input::utf8(path, WHAT, bytes)?;
-        return protocol(path, &Scenario::parse(input::name(path), &text)?);
+        return protocol(path, &team::read(path, input::name(path), &text)?);
     }
     if kind::is_of(&bytes, FileKind::Robot) {
         let text = input::utf8(path, WHAT, bytes)?;

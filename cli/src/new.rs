@@ -1,5 +1,5 @@
-//! `cotama new`: a mission file, a robot, an FMECA, or a crate with a net or a system, that works
-//! as it is.
+//! `cotama new`: a mission, a robot, a team, a floor, an FMECA, or a crate with a net or a system,
+//! that works as it is.
 //!
 //! The texts are the files in `templates/`, in which the name stands for the one that is wanted.
 
@@ -46,6 +46,7 @@ macro_rules! template {
 /// Templates of one file: its text and the name in it.
 const MISSION: (&str, &str) = (include_str!("../templates/mission.toml"), "my-mission");
 const ROBOT: (&str, &str) = (include_str!("../templates/robot.toml"), "my-robot");
+const TEAM: (&str, &str) = (include_str!("../templates/team.toml"), "my-team");
 const FLOOR: (&str, &str) = (include_str!("../templates/floor.toml"), "my-floor");
 const FMECA: (&str, &str) = (include_str!("../templates/fmeca.toml"), "my-fmeca");
 static NET: Template = template!("my-net" in "net", taken: &["net"]);
@@ -101,7 +102,7 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
         return Err(Failure::new(message).help("add `--robot`, or leave it out"));
     }
     let (files, next) = match args.kind {
-        NewKind::Mission | NewKind::Robot | NewKind::Floor | NewKind::Fmeca => {
+        NewKind::Mission | NewKind::Robot | NewKind::Team | NewKind::Floor | NewKind::Fmeca => {
             let what = one_file(args.kind);
             if args.sources.is_some() {
                 let message = format!("--sources is for crates: {what} is one file");
@@ -112,6 +113,7 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
             let (text, own) = match args.kind {
                 NewKind::Mission => MISSION,
                 NewKind::Robot => ROBOT,
+                NewKind::Team => TEAM,
                 NewKind::Floor => FLOOR,
                 _ => FMECA,
             };
@@ -123,6 +125,7 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
             let shown = quoted(&file.display().to_string());
             let [first, second] = match args.kind {
                 NewKind::Mission => ["plan", "run"].map(|it| format!("{it} {shown}")),
+                NewKind::Team => ["run", "assign"].map(|it| format!("{it} {shown}")),
                 NewKind::Robot => {
                     [format!("check {shown}"), format!("export {shown} --format svg")]
                 }
@@ -298,6 +301,7 @@ fn is_crate(kind: NewKind) -> bool {
 const fn one_file(kind: NewKind) -> &'static str {
     match kind {
         NewKind::Robot => "a robot",
+        NewKind::Team => "a team",
         NewKind::Floor => "a floor",
         NewKind::Fmeca => "an FMECA",
         _ => "a mission",
@@ -323,7 +327,9 @@ fn check_name(kind: NewKind, name: &str) -> Result<(), Failure> {
     }
     let module = name.replace('-', "_");
     let taken = match kind {
-        NewKind::Mission | NewKind::Robot | NewKind::Floor | NewKind::Fmeca => return Ok(()),
+        NewKind::Mission | NewKind::Robot | NewKind::Team | NewKind::Floor | NewKind::Fmeca => {
+            return Ok(());
+        }
         NewKind::Net => NET.taken,
         NewKind::System => SYSTEM.taken,
         NewKind::Board => BOARD.taken,

@@ -12,11 +12,15 @@ use cotama_models::robots;
 /// strings and comments is escaped.
 pub(crate) fn show(args: &MissionArg) -> Result<Exit, Failure> {
     let robot = robots::embedded(&args.mission).map(|it| it.text);
-    let floor = cotama_floor::embedded::named(&args.mission).map(|it| it.text);
-    let text = match (robot.or(floor).map(str::to_owned), Chosen::of(&args.mission)?) {
-        (Some(text), _) => text,
+    let floor = || cotama_floor::embedded::named(&args.mission).map(|it| it.text);
+    // A team has the name of the floor that is drawn for it.
+    let text = match (robot, Chosen::of(&args.mission)?) {
+        (Some(text), _) => text.to_owned(),
         (None, Some(team)) => team.text(),
-        (None, None) => mission::load(&args.mission, None)?.text().to_owned(),
+        (None, None) => match floor() {
+            Some(text) => text.to_owned(),
+            None => mission::load(&args.mission, None)?.text().to_owned(),
+        },
     };
     Screen::raw(text::toml(&text).to_string().as_bytes())?;
     Ok(Exit::Success)

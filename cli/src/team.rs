@@ -1,13 +1,15 @@
 //! Teams of robots from the command line: those of the program by their names, and files.
 
 use crate::exit::Failure;
+use crate::floor;
 use crate::input;
 use crate::kind::{self, Kind};
 use crate::render::numbers::count;
 use cotama_core::net::owned::OwnedNet;
 use cotama_models::team::protocol::{self, MOST_STEPS, Requirement, requirements};
-use cotama_models::team::scenario::Scenario;
+use cotama_models::team::scenario::{Asked, Scenario};
 use cotama_sim::fleet::scenarios::{FleetOptions, ServiceOptions, fleet, service};
+use std::path::Path;
 
 /// A scenario of a team.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,7 +57,7 @@ impl Chosen {
         }
         let wanted = [Kind::TeamAtWork];
         let text = kind::text(name, "a team's file", input::MISSION_BYTES, &wanted)?;
-        Ok(Some(Self::File(Box::new(Scenario::parse(name, &text)?))))
+        Ok(Some(Self::File(Box::new(read(name, name, &text)?))))
     }
 
     /// Returns the team with its own faults.
@@ -73,6 +75,15 @@ impl Chosen {
     pub(crate) fn text(&self) -> String {
         self.scenario().to_toml()
     }
+}
+
+/// Reads the file of a team at this path, with the floor that it names.
+pub(crate) fn read(path: &str, name: &str, text: &str) -> Result<Scenario, Failure> {
+    let ways = match Asked::of(text) {
+        Some(asked) => floor::ways(asked, Path::new(path).parent())?,
+        None => None,
+    };
+    Ok(Scenario::parse_on(name, text, ways.as_ref())?)
 }
 
 /// The protocol of a team, and what is asked of it.

@@ -11,6 +11,8 @@ What is written:
   robot    NAME.toml, a robot with all that can fail on it, of which its supervisors are made; \
 `check`, `statespace`, `simulate` and `export` take it as it is
   fmeca    NAME.toml, failure modes of a small robot with every key; `fmeca` takes it as it is
+  team     NAME.toml, three robots in an office with every key; `run`, `assign` and `campaign` \
+take it as it is
   floor    NAME.toml, two rooms with every key; `floor` takes it as it is
   net      the folder NAME: a crate with a supervisor, its laws, a program that plays it, tests of \
 what it promises, and an example that writes it as JSON for `check` and `simulate`
@@ -23,6 +25,7 @@ Examples:
   $ cotama new robot cart && cotama check cart.toml
   $ cotama new mission round --robot cart.toml && cotama run round.toml
   $ cotama new mission tour --robot transport --floor office && cotama run tour.toml
+  $ cotama new team crew && cotama run crew.toml
   $ cotama new fmeca arm && cotama fmeca arm.toml --diagnosability
   $ cotama new net gripper         # then: cd gripper && cargo test
   $ cotama new net hand && cotama new board hand
@@ -37,6 +40,8 @@ pub(crate) enum NewKind {
     Robot,
     /// A file of failure modes, their effects and criticality
     Fmeca,
+    /// A team of robots with tasks on a floor
+    Team,
     /// A floor with walls, a door, places
     Floor,
     /// A crate with a supervisor

@@ -28,7 +28,9 @@ pub(super) fn merge(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Failur
     let team = kind::is_of(&whole.mission, Kind::TeamAtWork);
     let settings = whole.settings().map_err(|error| Failure::new(error.to_string()))?;
     if team {
-        let scenario = Scenario::parse(&whole.mission_source, &whole.mission)?;
+        let ways = whole.floor.as_ref().map(|it| it.ways(&whole.mission));
+        let source = &whole.mission_source;
+        let scenario = Scenario::parse_on(source, &whole.mission, ways.as_ref())?;
         let subject = Subject::of_team(scenario, None).named(&whole.mission_source);
         let campaign =
             Campaign::new(subject, settings).map_err(|it| Failure::new(it.to_string()))?;
