@@ -43,7 +43,7 @@
         count[state] += 1;
         if (now[2] >= 0) {
           var at = places[now[2]];
-          move(item, at[0] + reach * 0.9, at[1] - reach * 0.9);
+          move(item, at[0] + reach * 1.2, at[1] - reach * 1.2);
           loads[now[2]] = RUN.names[number];
         } else { move(item, now[3], now[4]); }
       }
