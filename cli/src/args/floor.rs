@@ -8,7 +8,8 @@ use std::path::PathBuf;
 pub(crate) const FLOOR_EXAMPLES: &str = "\
 A floor is `office` or `clinic`, which come with the program, a drawing of yours (FILE.toml, `cotama
 new floor` begins one), or a map of ROS (FILE.yaml with its image, read as Nav2 reads them). A place
-is one of the drawing, or X,Y in mm from its left lower corner; of a map, in the coordinates of its origin.
+is one of the drawing, or X,Y in mm from its left lower corner; of a map, in the coordinates of its
+origin.
 
 Exit codes: 0 there is a path, or none is asked for; 1 there is none; 2 bad input.
 

@@ -24,7 +24,8 @@ pub struct Turn {
 /// turn φ ([`OdometryErrors`]). The angle by the gyro is summed by the trapezoid rule.
 ///
 /// *Threshold.* Over a window W of readings each T, the difference is normal, of variance
-/// β² W² + σ² T W + d² s + t² |φ|; |difference| is at most z(p/2) deviations, one decision a window.
+/// β² W² + σ² T W + d² s + t² |φ|, and exceeds z(p/2) deviations with the chance p of a decision;
+/// there is one decision a window.
 ///
 /// ```
 /// use cotama_core::units::Millis;

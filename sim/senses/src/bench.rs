@@ -24,7 +24,7 @@ pub struct Bench {
     pub(crate) access: Vec<Point>,
     /// The lasers by which the robot localises, a bit each; where there are none, by its sonars.
     pub(crate) localising: u64,
-    /// Of each laser, how long it sees nothing, and how long it does not match the map.
+    /// Tails of each laser: how long it sees nothing, and how long it does not match the map.
     pub(crate) scans: Vec<[Tail; 2]>,
     pub(crate) marks: Vec<QrMark>,
 }

@@ -10,12 +10,17 @@
 //! | signal | by |
 //! | --- | --- |
 //! | ranges of 16 sonars | [`Ring`](cotama_devices::Ring) |
-//! | scans of lasers, pictures, turns | [`Laser`](cotama_devices::Laser), [`Camera`](cotama_devices::Camera), [`Gyro`](cotama_devices::Gyro), as the robot's file has them |
-//! | pose in the map | [`Localiser`](cotama_localisation::Localiser), by scans or ranges; a Kalman filter, by marks |
+//! | scans, pictures, turns, as the robot's file has them | [`Laser`], [`Camera`], [`Gyro`] |
+//! | pose in the map | [`Localiser`], by scans or sonars; by marks a Kalman filter |
 //! | pose by encoders | [`Odometry`](cotama_plane::Odometry) |
 //! | speeds, currents, stall, bumpers, voltage | packets of the micro-controller |
 //! | level of the link, heartbeat of the operator | [`Link`](cotama_devices::Link) |
 //! | images | time stamps alone |
+//!
+//! [`Laser`]: cotama_devices::Laser
+//! [`Camera`]: cotama_devices::Camera
+//! [`Gyro`]: cotama_devices::Gyro
+//! [`Localiser`]: cotama_localisation::Localiser
 #![cfg_attr(test, allow(clippy::pedantic, clippy::unwrap_used))]
 #![allow(clippy::cast_precision_loss)] // times and lengths of a mission are below 2^53
 #![allow(clippy::cast_sign_loss)] // lengths along a path are at least 0

@@ -14,7 +14,7 @@ const HIDDEN: f64 = 0.1;
 /// The window over which turns are compared.
 const WINDOW: Millis = Millis(2_000);
 
-/// What is raised, a bit for each laser.
+/// Signals that are raised, a bit for each laser.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Raised {
     silent: u64,
