@@ -8,7 +8,7 @@ use cotama_core::units::{MillimetresPerSecond, Millis};
 pub struct People {
     /// How many walk between places that a seed draws.
     pub drawn: usize,
-    /// Those who walk as the mission says.
+    /// The people who walk as the mission says.
     pub walkers: Vec<Walker>,
 }
 

@@ -50,7 +50,8 @@ impl<'w> Ground<'w> {
         Some(Self { way: Some(way), next: 0, at: Some(Millimetres(0)) })
     }
 
-    /// The doors of the floor, by name; none of a map. Those of a floor that is refused have no name.
+    /// The doors of the floor, by name; none of a map. A floor that is refused has one without a
+    /// name.
     pub(super) fn doors(&self) -> &'w [String] {
         self.way.map_or(UNREAD, |it| it.doors.as_deref().unwrap_or(UNREAD))
     }

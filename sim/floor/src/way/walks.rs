@@ -56,7 +56,8 @@ pub(super) fn all(
             inside(surface, from, from_at).map_err(|_| NoLeg::Start)?;
             let refused = |why| match why {
                 RouteError::Start(_) => NoLeg::Start, // said of the way that leads there
-                RouteError::None(_) if number == 0 && places.len() == 2 => NoLeg::Start, // of the other
+                // Said of the way there.
+                RouteError::None(_) if number == 0 && places.len() == 2 => NoLeg::Start,
                 why => no_path(why, floor, [from, to], PERSON_RADIUS_M, "person"),
             };
             planner.route(from_at, goal).map(|it| leg(&it)).map_err(refused)

@@ -8,7 +8,7 @@ use crate::follower::Follower;
 use cotama_core::units::Millimetres;
 use cotama_devices::Disc;
 
-/// What became of a door in the way.
+/// The outcome of a door in the way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Met {
     /// The robot goes another way, which is so much longer.
