@@ -6,6 +6,7 @@ use crate::answers::campaign::{
 };
 use crate::args::{CampaignArgs, PolicyName};
 use crate::exit::{Exit, Failure};
+use crate::measurement;
 use crate::mission;
 use crate::output::{self, Screen};
 use crate::render;
@@ -19,12 +20,14 @@ use cotama_campaign::statistics::{Decision, Interval};
 use cotama_campaign::strategy::BLOCK;
 use cotama_campaign::subject::{Policy, Subject};
 use cotama_models::missions::Mission;
+use cotama_models::robots::Measurement;
 use cotama_models::team::scenario::On;
 use cotama_pages::campaign::{self as page, Shown};
 use cotama_sim::options::STEPS;
 use cotama_sim::trace::{FloorText, RobotText};
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::Arc;
 use store::Store;
 
 mod asked;
@@ -69,7 +72,9 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
     let policy = args.policy_for(&mission)?;
     let of = asked::Of::mission(&mission);
     let settings = asked::settings(args, of, mission.source(), Some(&mission))?;
-    let campaign = ready(&mission, policy, settings)?;
+    let measured = args.measured.as_deref();
+    let measured = measurement::of_run(measured, &mission, policy.fidelity)?;
+    let campaign = ready(&mission, policy, settings, measured)?;
     let shard = args.shard.unwrap_or(Shard::ALL);
     let texts = (mission.source(), mission.text());
     let usual = args.policy().policy(mission.is_supervised(), STEPS);
@@ -86,6 +91,7 @@ fn of_team(args: &CampaignArgs, team: &Chosen, screen: &Screen) -> Result<Exit, 
     let given = [
         ("--compare", args.compare),
         ("--supervised", args.supervised.is_some()),
+        ("--measured", args.measured.is_some()),
         ("--policy", args.policy.is_some()),
         ("--objective", args.objective.is_some()),
         ("--allocator", args.allocator.is_some()),
@@ -160,9 +166,18 @@ fn conduct(
     ended(args, &answer, screen)
 }
 
-fn ready(mission: &Mission, policy: Policy, settings: Settings) -> Result<Campaign<'_>, Failure> {
+fn ready(
+    mission: &Mission,
+    policy: Policy,
+    settings: Settings,
+    measured: Option<Arc<Measurement>>,
+) -> Result<Campaign<'_>, Failure> {
     let subject = Subject::new(mission, policy)
         .map_err(|error| Failure::of(mission.source(), error.to_string()))?;
+    let subject = match measured {
+        Some(it) => subject.measured(it),
+        None => subject,
+    };
     let subject = mission::named(subject, mission.source());
     Campaign::new(subject, settings)
         .map_err(|error| Failure::of(mission.source(), error.to_string()))

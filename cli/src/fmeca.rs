@@ -13,6 +13,7 @@ use crate::args::{FmecaArgs, FmecaFormat};
 use crate::exit::{Exit, Failure};
 use crate::input;
 use crate::kind::{self, Kind};
+use crate::measurement;
 use crate::names::{near, quoted};
 use crate::output::{self, Screen};
 use crate::render;
@@ -20,7 +21,7 @@ use crate::render::style::NAME;
 use crate::robot;
 use clap::ValueEnum;
 use cotama_models::fmeca::Analysis;
-use cotama_models::robots::{self, Robot};
+use cotama_models::robots::{self, Measurement, Robot};
 use cotama_pages::causes;
 use std::path::Path;
 
@@ -39,6 +40,15 @@ pub(crate) fn fmeca(args: &FmecaArgs, screen: &Screen) -> Result<Exit, Failure> 
         (None, None) => None,
     };
     let (analysis, robot) = named(args.file.as_deref().unwrap_or(DEFAULT))?;
+    let measurement = args.measured.as_deref().map(|it| by_runs(robot.as_ref(), it)).transpose()?;
+    let analysis = match &measurement {
+        Some((robot, it)) if args.detections => {
+            measured::shown(robot, it, args, screen)?;
+            return Ok(Exit::Success);
+        }
+        Some((robot, it)) => analysis.measured(robot, it),
+        None => analysis,
+    };
     let function = args.function.as_deref().map(|it| known(&analysis, it)).transpose()?;
     let answer = || rows::answer(&analysis, robot.as_ref());
     let Some(format) = format else {
@@ -88,6 +98,15 @@ fn named(name: &str) -> Result<(Analysis, Option<Robot>), Failure> {
         Some(it) => of_robot(name, Robot::parse(it.name, it.text)?),
         None => read(name),
     }
+}
+
+/// The measurement of a robot, with the robot.
+fn by_runs<'r>(robot: Option<&'r Robot>, name: &str) -> Result<(&'r Robot, Measurement), Failure> {
+    let Some(robot) = robot else {
+        let message = "--measured is of a robot, and this is a table of rows";
+        return Err(Failure::new(message).help("name the robot, or its file"));
+    };
+    Ok((robot, measurement::load(name, robot)?))
 }
 
 fn of_robot(name: &str, robot: Robot) -> Result<(Analysis, Option<Robot>), Failure> {

@@ -11,6 +11,8 @@ use std::path::Path;
 
 /// The most bytes of a mission or a file of faults.
 pub(crate) const MISSION_BYTES: u64 = 4 << 20;
+/// The most bytes of a measurement: ten thousand runs of each failure.
+pub(crate) const MEASUREMENT_BYTES: u64 = 16 << 20;
 /// The most bytes of an FMECA.
 pub(crate) const FMECA_BYTES: u64 = 4 << 20;
 /// The most bytes of an allocation instance, or of a team with its tasks.

@@ -28,6 +28,7 @@ mod junit;
 mod kind;
 mod last_word;
 mod list;
+mod measurement;
 mod mission;
 mod model;
 mod models;

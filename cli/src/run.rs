@@ -6,6 +6,7 @@ use crate::exit::{Exit, Failure};
 use crate::infeasible;
 use crate::input;
 use crate::kind::{self, Kind};
+use crate::measurement;
 use crate::mission;
 use crate::names;
 use crate::output::{self, Screen};
@@ -224,6 +225,7 @@ fn options(args: &RunArgs, mission: &Mission) -> Result<Options, Failure> {
         upward: args.upward.then(|| upward(mission.limits)),
         fidelity: args.fidelity.into(),
         people: usize::try_from(args.people).unwrap_or(usize::MAX),
+        measured: measurement::of_run(args.measured.as_deref(), mission, args.fidelity.into())?,
     })
 }
 

@@ -4,7 +4,9 @@ use cotama_core::monitor::Upward;
 use cotama_core::units::Millis;
 use cotama_models::missions::faults::{FIDELITIES, Faults};
 use cotama_models::missions::{Definition, PlannedFor};
+use cotama_models::robots::Measurement;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// How a mission is run.
 ///
@@ -38,6 +40,9 @@ pub struct Options {
     pub fidelity: Fidelity,
     /// How many people walk on the floor, in the plane.
     pub people: usize,
+    /// How failures of the robot are found: as they were measured, in place of the latencies that
+    /// its file assumes. By signals nothing is told, and this is not looked at.
+    pub measured: Option<Arc<Measurement>>,
 }
 
 /// How closely a robot is modelled. Supervisors, plans and faults are the same.

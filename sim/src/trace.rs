@@ -114,6 +114,9 @@ pub struct RunOptions {
     /// How many people walked on the floor.
     #[serde(default, skip_serializing_if = "pose::is_none")]
     pub people: usize,
+    /// The text of a measurement by which failures were found; absent where latencies were assumed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub measured: Option<String>,
 }
 
 /// The faults of a run.

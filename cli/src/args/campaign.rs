@@ -70,6 +70,9 @@ pub(crate) struct CampaignArgs {
     /// How closely the robot is modelled, as in `cotama run`
     #[arg(long, value_enum, value_name = "HOW", default_value_t = Fidelity::Line)]
     pub(crate) fidelity: Fidelity,
+    /// Finds failures as runs by signals have, as in `cotama run`; each run draws
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["compare", "out", "shard"])]
+    pub(crate) measured: Option<String>,
     /// Objective of the plan, as in `cotama run`: the paper's rule, the most quality, or the least
     /// energy [default: that of the mission file, else quality]
     #[arg(long, value_name = "WHAT", conflicts_with = "compare")]

@@ -10,12 +10,16 @@ Severities: weak, medium, hard, fatal; the first while the robot drives itself, 
 the operator drives.
 Criticality: the risk priority number (RPN) is severity rank x occurrence rank x detection rank, \
 each from 1 to 10; the class (intolerable, undesirable, tolerable, negligible) is the field of \
-severity against occurrence. The tables: docs/dependability.md.
+severity against occurrence; the Action Priority (AP: high, medium, low) is a table of the three \
+ranks. The tables: docs/dependability.md.
 
 Examples:
   $ cotama fmeca
   $ cotama fmeca --diagnosability
   $ cotama fmeca --measure delivery --seeds 5               # detected by signals, in the plane
+  $ cotama fmeca --measure delivery --output measured.toml
+  $ cotama fmeca --measured measured.toml                   # RPN and AP by runs, beside the assumed
+  $ cotama fmeca --measured measured.toml --detections      # the runs again, as a table
   $ cotama fmeca --format csv | head -1
   $ cotama fmeca --output fmeca.html                        # the format by the name of the file
   $ cotama fmeca --function localise --output localise.svg
@@ -42,10 +46,18 @@ pub(crate) struct FmecaArgs {
     /// Shows which failure modes cannot be told apart, and what would help
     #[arg(long)]
     pub(crate) diagnosability: bool,
-    /// Measures how signals detect the failures of this mission's robot, in place of showing them
-    #[arg(long, value_name = "MISSION", conflicts_with_all = ["file", "format", "output",
-        "function", "diagnosability"])]
+    /// Measures how signals detect the failures of this mission's robot, in place of showing them;
+    /// and, with --output FILE.toml, writes every run to a file for --measured
+    #[arg(long, value_name = "MISSION", conflicts_with_all = ["file", "format", "function",
+        "diagnosability", "measured"])]
     pub(crate) measure: Option<String>,
+    /// Shows beside the assumed detection what runs have shown: a file of --measure, or the name of
+    /// a robot that comes measured, `p3dx-delivery`
+    #[arg(long, value_name = "FILE", conflicts_with = "diagnosability")]
+    pub(crate) measured: Option<String>,
+    /// Shows the runs of --measured as --measure does: how often, after how long, taken for what
+    #[arg(long, requires = "measured", conflicts_with_all = ["format", "output", "function"])]
+    pub(crate) detections: bool,
     /// The runs of each failure that are measured, one a seed
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = whole(1, 10_000))]
     pub(crate) seeds: u64,

@@ -76,6 +76,10 @@ pub(crate) struct RunArgs {
     /// How closely the robot is modelled; `plane` is for robots with a file
     #[arg(long, value_enum, value_name = "HOW", default_value_t = Fidelity::Line)]
     pub(crate) fidelity: Fidelity,
+    /// Finds failures as runs by signals have: a file of `cotama fmeca --measure`, or the name of
+    /// a robot that comes measured, `p3dx-delivery`; the seed draws [default: latencies as assumed]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) measured: Option<String>,
     /// How many people walk between the places of the floor, in the plane, in place of `people` of
     /// the mission; the seed draws them
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole(0, 1_000))]

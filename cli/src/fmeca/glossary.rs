@@ -6,10 +6,11 @@ use std::collections::HashSet;
 use std::fmt::Write;
 
 /// Abbreviations that are no module's name; failure modes stand in the table.
-const WORDS: [(&str, &str); 12] = [
+const WORDS: [(&str, &str); 13] = [
     ("FMECA", "failure modes, effects and criticality analysis"),
     ("MTBF", "mean time between failures"),
     ("RPN", "risk priority number: severity × occurrence × detection"),
+    ("AP", "Action Priority: high, medium or low, after the AIAG & VDA FMEA Handbook of 2019"),
     ("COTAMA", "contextual task management: the control architecture of Durand et al., TAROS 2010"),
     ("TAROS", "the conference Towards Autonomous Robotic Systems"),
     ("VI", "a section of the paper on COTAMA"),
@@ -22,7 +23,7 @@ const WORDS: [(&str, &str); 12] = [
 ];
 
 /// How many of them a file of rows may use; the others are of robots.
-const COMMON: usize = 3;
+const COMMON: usize = 4;
 
 /// The section of the page; `page` is what stands before it.
 pub(super) fn section(page: &str, robot: Option<&Robot>) -> String {

@@ -5,7 +5,7 @@ use crate::render::fmeca::{heading, hours, seconds, summary, worst};
 use cotama_core::text::marked;
 use std::fmt::Write;
 
-const COLUMNS: [&str; 20] = [
+const COLUMNS: [&str; 24] = [
     "id",
     "function",
     "component",
@@ -26,6 +26,10 @@ const COLUMNS: [&str; 20] = [
     "D",
     "RPN",
     "criticality",
+    "AP",
+    "D measured",
+    "RPN measured",
+    "AP measured",
 ];
 
 /// A heading, the counts and the table; without columns in which nothing stands.
@@ -56,11 +60,12 @@ fn name(column: &'static str, both: bool) -> &'static str {
     }
 }
 
-fn cells(row: &FmecaRow<'_>) -> [String; 20] {
+fn cells(row: &FmecaRow<'_>) -> [String; 24] {
     let rate = format!("{} ({})", hours(row.mtbf_mh), row.rate_label);
     let seen = !row.flags_always.is_empty() || row.detection_latency_ms > 0;
     let within = if seen { seconds(row.detection_latency_ms) } else { String::new() };
     let criticality = row.criticality;
+    let measured = criticality.measured;
     [
         row.id,
         row.function,
@@ -82,6 +87,10 @@ fn cells(row: &FmecaRow<'_>) -> [String; 20] {
         &criticality.detection.to_string(),
         &criticality.rpn.to_string(),
         criticality.class,
+        criticality.action_priority,
+        &measured.map_or_else(String::new, |it| it.detection.to_string()),
+        &measured.map_or_else(String::new, |it| it.rpn.to_string()),
+        measured.map_or("", |it| it.action_priority),
     ]
     .map(str::to_owned)
 }

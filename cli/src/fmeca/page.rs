@@ -144,7 +144,16 @@ fn columns(answer: &FmecaAnswer<'_>) -> Vec<Column> {
     columns.push(("RPN", "n", |row| {
         let it = row.criticality;
         let ranks = format!("{} · {} · {}", it.severity, it.occurrence, it.detection);
-        with(format!("<b>{}</b>", it.rpn), ranks)
+        let measured = it.measured.map_or_else(String::new, |by| {
+            format!("; by runs {}, with D {}", by.rpn, by.detection)
+        });
+        with(format!("<b>{}</b>", it.rpn), ranks + &measured)
+    }));
+    columns.push(("AP", "", |row| {
+        let it = row.criticality;
+        let measured =
+            it.measured.map_or_else(String::new, |by| format!("by runs {}", by.action_priority));
+        with(format!("<b>{}</b>", it.action_priority), measured)
     }));
     columns.push(("Criticality", "", |row| {
         let it = row.criticality;
@@ -190,7 +199,8 @@ fn table(page: &mut String, answer: &FmecaAnswer<'_>) {
         "<section id=\"table\">\n<h2>Failure modes</h2>\n<p class=\"note\">{both}Rates are \
          assumed unless they are marked as stated. The RPN is the product of three ranks from 1 \
          to 10, which stand below it: severity (S, the worse where there are two), occurrence (O) \
-         and detection (D).</p>"
+         and detection (D). The Action Priority (AP) is high, medium or low by a table of \
+         these three ranks.</p>"
     );
     pick(page, "a component or a cause");
     page.push_str("<div class=\"scroll\"><table>\n<thead><tr><th>Id");

@@ -1,7 +1,9 @@
 //! An analysis as an answer.
 
 use super::diagnosability;
-use crate::answers::fmeca::{CountsRow, CriticalityRow, DiagramRow, FmecaAnswer, FmecaRow, RibRow};
+use crate::answers::fmeca::{
+    CountsRow, CriticalityRow, DiagramRow, FmecaAnswer, FmecaRow, MeasuredRow, RibRow,
+};
 use cotama_models::fmeca::{Analysis, Mode};
 use cotama_models::robots::{Parts, Robot};
 use cotama_models::severity::{Persistence, Severity};
@@ -100,6 +102,12 @@ fn criticality(analysis: &Analysis, mode: &Mode) -> CriticalityRow {
         severity_class: it.severity_class.name(),
         occurrence_class: it.occurrence_class.name(),
         class: it.class().name(),
+        action_priority: it.priority().name(),
+        measured: it.measured.map(|detection| MeasuredRow {
+            detection,
+            rpn: it.rpn_by(detection),
+            action_priority: it.priority_by(detection).name(),
+        }),
         number_e9: it.number_e9,
     }
 }

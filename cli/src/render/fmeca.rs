@@ -2,8 +2,8 @@
 
 use super::style::{BAD, FAINT, GOOD, HEADING, NAME, NOTICE, PLAIN, Style};
 use super::table::{Cell, Table};
-use super::{described, visible, wrapped};
-use crate::answers::fmeca::{Diagnosability, FmecaAnswer, FmecaRow, MeasureAnswer, StatusRow};
+use super::{described, wrapped};
+use crate::answers::fmeca::{CriticalityRow, Diagnosability, FmecaAnswer, FmecaRow, StatusRow};
 use std::fmt::Write;
 
 /// Narrower screens show the rows one below the other, as cells would be too narrow to read.
@@ -12,10 +12,12 @@ const LEAST: usize = 90;
 /// The columns with words: their titles, the least width of each, and its part of what is left, in
 /// hundredths.
 const WORDS: [(&str, usize, usize); 4] =
-    [("component", 9, 15), ("failure", 12, 27), ("seen by", 10, 18), ("reaction", 14, 40)];
+    [("component", 9, 15), ("failure", 12, 27), ("seen by", 12, 18), ("reaction", 12, 40)];
 
 /// The width of everything beside the columns with words and the ids: severities, numbers, spaces.
-const FIXED: usize = 2 + 2 + 6 + 2 + 8 + 2 + 4 + 4 * 2;
+const FIXED: usize = 2 + 2 + 6 + 2 + 8 + 2 + 4 + 2 + 2 + 4 * 2;
+/// The width of what runs have shown, behind an arrow in two columns.
+const BY_RUNS: usize = 4;
 /// Longer ids leave no place for words beside them.
 const LONGEST_ID: usize = 12;
 
@@ -56,11 +58,31 @@ pub(crate) fn worst(rows: &[FmecaRow<'_>]) -> String {
     let mut highest: Vec<_> = rows.iter().map(|it| (it.criticality.rpn, it.id)).collect();
     highest.sort_by_key(|it| std::cmp::Reverse(it.0));
     let highest = highest.iter().take(3).map(|(rpn, id)| format!("{id} {rpn}"));
+    let assumed = priorities(rows, |it| Some(it.action_priority));
+    let measured = rows.iter().filter(|it| it.criticality.measured.is_some()).count();
+    let measured = if measured == 0 {
+        String::new()
+    } else {
+        let by = |it: CriticalityRow| it.measured.map(|it| it.action_priority);
+        format!("; of the {measured} rows with runs, behind the arrow, {}", priorities(rows, by))
+    };
     format!(
-        "Criticality: {}; highest risk priority numbers (RPN): {}.",
+        "Criticality: {}; highest risk priority numbers (RPN): {}. Action Priority (AP): \
+         {assumed}{measured}.",
         classes.collect::<Vec<_>>().join(", "),
         highest.collect::<Vec<_>>().join(", ")
     )
+}
+
+/// How many rows have each Action Priority.
+fn priorities(
+    rows: &[FmecaRow<'_>],
+    of: impl Fn(CriticalityRow) -> Option<&'static str>,
+) -> String {
+    let count = |name| rows.iter().filter(|it| of(it.criticality) == Some(name)).count();
+    let all = [("H", "high"), ("M", "medium"), ("L", "low")].map(|it| (count(it.0), it.1));
+    let said = all.iter().filter(|it| it.0 > 0).map(|it| format!("{} {}", it.0, it.1));
+    said.collect::<Vec<_>>().join(", ")
 }
 
 /// A time in seconds.
@@ -92,6 +114,27 @@ fn class(name: &str) -> Style {
         "intolerable" => BAD,
         "undesirable" => NOTICE,
         "negligible" => GOOD,
+        _ => PLAIN,
+    }
+}
+
+/// The risk priority number; behind an arrow the one that runs have shown.
+pub(crate) fn rpn(it: CriticalityRow) -> String {
+    let measured = it.measured.map_or_else(String::new, |it| format!("→{}", it.rpn));
+    format!("{}{measured}", it.rpn)
+}
+
+/// The Action Priority; behind an arrow the one that runs have shown.
+pub(crate) fn priority(it: CriticalityRow) -> String {
+    let measured = it.measured.map_or_else(String::new, |it| format!("→{}", it.action_priority));
+    format!("{}{measured}", it.action_priority)
+}
+
+/// The style of the Action Priority that holds: that of runs, where they were made.
+fn urgent(it: CriticalityRow) -> Style {
+    match it.measured.map_or(it.action_priority, |it| it.action_priority) {
+        "H" => BAD,
+        "M" => NOTICE,
         _ => PLAIN,
     }
 }
@@ -131,21 +174,23 @@ fn seen(row: &FmecaRow<'_>) -> String {
 
 fn table(rows: &[FmecaRow<'_>], longest: usize, width: usize) -> String {
     let least: usize = WORDS.iter().map(|(_, least, _)| least).sum();
-    let spare = width.saturating_sub(FIXED + longest + least);
+    let by_runs = rows.iter().any(|it| it.criticality.measured.is_some());
+    let fixed = FIXED + if by_runs { BY_RUNS } else { 0 };
+    let spare = width.saturating_sub(fixed + longest + least);
     let widths = WORDS.map(|(_, least, part)| least + spare * part / 100);
     let [component, failure, seen_by, reaction] = WORDS.map(|(title, ..)| title);
-    let head = |cells: [&str; 8]| cells.map(Cell::faint).to_vec();
+    let head = |cells: [&str; 9]| cells.map(Cell::faint).to_vec();
     let both = rows.iter().any(|it| it.severity_operator.is_some());
     let heads = if both {
         vec![
-            head(["", "", "", "robot", "operator", "", "", ""]),
-            head(["id", component, failure, "drives", "drives", "RPN", seen_by, reaction]),
+            head(["", "", "", "robot", "operator", "", "", "", ""]),
+            head(["id", component, failure, "drives", "drives", "RPN", "AP", seen_by, reaction]),
         ]
     } else {
-        vec![head(["id", component, failure, "severity", "", "RPN", seen_by, reaction])]
+        vec![head(["id", component, failure, "severity", "", "RPN", "AP", seen_by, reaction])]
     };
     let mut table = Table::new(heads.into_iter().map(|it| without(it, both)).collect());
-    for column in if both { [1, 2, 3, 4, 6, 7] } else { [1, 2, 3, 5, 6, 6] } {
+    for column in if both { [1, 2, 3, 4, 6, 7, 8] } else { [1, 2, 3, 5, 6, 7, 7] } {
         table = table.left(column);
     }
     for row in rows {
@@ -154,7 +199,7 @@ fn table(rows: &[FmecaRow<'_>], longest: usize, width: usize) -> String {
         let columns: Vec<Vec<String>> =
             words.iter().zip(widths).map(|(text, width)| lines(text, width)).collect();
         let most = columns.iter().map(Vec::len).max().unwrap_or(1);
-        let rpn = row.criticality.rpn.to_string();
+        let (rpn, priority) = (rpn(row.criticality), priority(row.criticality));
         let operator = row.severity_operator.unwrap_or_default();
         for at in 0..most {
             let word = |column: usize, style| {
@@ -168,6 +213,7 @@ fn table(rows: &[FmecaRow<'_>], longest: usize, width: usize) -> String {
                 first(row.severity_autonomous, severity(row.severity_autonomous)),
                 first(operator, severity(operator)),
                 first(&rpn, class(row.criticality.class)),
+                first(&priority, urgent(row.criticality)),
                 word(2, FAINT),
                 word(3, PLAIN),
             ];
@@ -229,7 +275,8 @@ fn list(rows: &[FmecaRow<'_>], longest: usize, width: usize) -> String {
             let _ = write!(text, ", operator drives: {other}{operator}{other:#}");
         }
         let (it, style) = (row.criticality, class(row.criticality.class));
-        let _ = writeln!(text, "; RPN {style}{}{style:#}", it.rpn);
+        let (rpn, priority, urgent) = (rpn(it), priority(it), urgent(it));
+        let _ = writeln!(text, "; RPN {style}{rpn}{style:#}, AP {urgent}{priority}{urgent:#}");
         let by = if row.flags_always.is_empty() { "" } else { "seen by " };
         text += &wrapped(&format!("{by}{}", seen(row)), width, &indent);
         if !row.reaction.is_empty() {
@@ -346,47 +393,6 @@ fn status(row: &StatusRow<'_>, no_probes: bool, width: usize) -> String {
         text += &described(&format!("unseen {}", unseen.id), 15, BAD, &unseen.reason, width);
     }
     text
-}
-
-/// Returns the screen of measured detections.
-pub(crate) fn measured(answer: &MeasureAnswer, width: usize) -> String {
-    let head = ["", "found", "named", "median", "worst", "assumed", "taken for"];
-    let mut table = Table::new(vec![head.map(Cell::faint).to_vec()]).left(6);
-    let seconds = |it: Option<u64>| {
-        it.map_or_else(
-            || "\u{b7}".to_owned(),
-            |it| format!("{}.{} s", it / 1_000, it % 1_000 / 100),
-        )
-    };
-    for it in &answer.rows {
-        let of = |it: u64, runs: u64| if it * 20 >= runs * 19 { GOOD } else { BAD };
-        let taken = it.taken_for.iter().map(|it| format!("{} {}", it.runs, it.rows.join(" ")));
-        table.row(vec![
-            Cell::new(visible(&it.id), NAME),
-            Cell::new(format!("{} of {}", it.found, it.runs), of(it.found, it.runs)),
-            Cell::new(it.named.to_string(), of(it.named, it.runs)),
-            Cell::plain(seconds(it.median_ms)),
-            Cell::plain(seconds(it.worst_ms)),
-            Cell::faint(seconds(Some(it.assumed_ms))),
-            Cell::plain(visible(&taken.collect::<Vec<_>>().join(", "))),
-        ]);
-    }
-    let title = format!(
-        "{HEADING}{}{HEADING:#} on {}: each failure at {} m, {} runs, diagnosed within {} s\n\n",
-        visible(&answer.robot),
-        visible(&answer.mission),
-        answer.x_mm / 1_000,
-        answer.seeds,
-        answer.window_ms / 1_000
-    );
-    let alarms: u64 = answer.rows.iter().map(|it| it.false_alarms).sum();
-    let runs: u64 = answer.rows.iter().map(|it| it.runs).sum();
-    let after = format!(
-        "\nSomething was diagnosed before anything failed in {alarms} of {runs} runs. Told, as \
-         they harm no device here: {}.",
-        answer.told.join(", ")
-    );
-    title + &table.render(width) + &wrapped(&after, width, "")
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ pub(crate) mod estimate;
 pub(crate) mod floor;
 pub(crate) mod fmeca;
 pub(crate) mod fold;
+pub(crate) mod measured;
 pub(crate) mod models;
 pub(crate) mod numbers;
 pub(crate) mod plan;

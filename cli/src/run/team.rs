@@ -290,6 +290,7 @@ fn for_missions(args: &RunArgs) -> Result<(), Failure> {
         ("--monitor-period", args.monitor_period.is_some()),
         ("--upward", args.upward),
         ("--fidelity", args.fidelity != Fidelity::Line),
+        ("--measured", args.measured.is_some()),
         ("--steps", planning.steps != STEPS),
     ];
     match given.into_iter().find(|it| it.1) {

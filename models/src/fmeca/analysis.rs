@@ -84,6 +84,8 @@ pub struct Mode {
     pub silent: Option<String>,
     /// Detection rank, from 1 to 10, in place of the one by the table.
     pub detection_rank: Option<u8>,
+    /// Detection rank by runs, where they were made.
+    pub measured_rank: Option<u8>,
     /// The receiver of its event, in words.
     pub event: String,
     /// The reaction, in words.

@@ -4,13 +4,15 @@ use super::analysis::{Analysis, Mode};
 use super::set::Set;
 use std::fmt::Write;
 
-/// The columns of [`Analysis::to_csv`]. The last five are computed and not read back: the ranks of
-/// severity, occurrence and detection, their product, and the class of criticality.
+/// The columns of [`Analysis::to_csv`]. The last nine are computed and not read back: the ranks of
+/// severity, occurrence and detection, their product, the class of criticality, and the Action
+/// Priority; then detection rank, product and priority by runs, where they were made.
 pub const COLUMNS: &str = "id,function,component,failure_mode,cause,effect,\
     severity_auto,severity_teleop,modules_lost,observer,detection_rule,detection_latency_s,\
     cs_event_auto,reaction,persistence,mtbf_h,rate_source,injection,\
     flags,sometimes,silent,rate_label,alpha_permille,beta_permille,detection_rank,\
-    s,o,d,rpn,criticality";
+    s,o,d,rpn,criticality,\
+    action_priority,d_measured,rpn_measured,action_priority_measured";
 
 impl Analysis {
     /// Comma-separated values: a heading and one line a row, fields quoted where they must be (RFC
@@ -35,9 +37,10 @@ impl Analysis {
         text
     }
 
-    fn fields(&self, it: &Mode) -> [String; 30] {
+    fn fields(&self, it: &Mode) -> [String; 34] {
         let number = |it: Option<u16>| it.map_or_else(String::new, |it| it.to_string());
         let criticality = self.criticality(it);
+        let measured = criticality.measured;
         [
             it.id.clone(),
             it.function.clone(),
@@ -69,6 +72,10 @@ impl Analysis {
             criticality.detection.to_string(),
             criticality.rpn().to_string(),
             criticality.class().name().to_owned(),
+            criticality.priority().name().to_owned(),
+            number(measured.map(u16::from)),
+            number(measured.map(|it| criticality.rpn_by(it))),
+            measured.map_or("", |it| criticality.priority_by(it).name()).to_owned(),
         ]
     }
 

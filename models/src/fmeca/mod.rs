@@ -38,17 +38,21 @@ mod diagnosis;
 mod groups;
 mod label;
 mod own_robot;
+mod priority;
 mod reader;
 mod rows;
 mod set;
 
 pub use analysis::{Analysis, Flag, MAX_FLAGS, MAX_MODES, MAX_PROBES, Mode, Probe, Rib};
-pub use criticality::{Criticality, CriticalityClass, OccurrenceClass, SeverityClass};
+pub use criticality::{
+    Criticality, CriticalityClass, OccurrenceClass, SeverityClass, measured_rank,
+};
 pub use csv::COLUMNS;
 pub use diagnosis::{Diagnosability, MAX_PAIRS, Pair, Status};
 pub use groups::{Groups, MAX_GROUPED};
 pub use label::Label;
 pub use own_robot::NoRate;
+pub use priority::ActionPriority;
 pub use reader::FORMAT;
 pub(crate) use reader::thousandths;
 pub use set::Set;

@@ -1,10 +1,11 @@
 //! The analysis of a robot from its file.
 
 use super::analysis::{Analysis, Flag, Mode};
+use super::criticality::measured_rank;
 use super::diagnosis::Status;
 use super::label::Label;
 use super::set::Set;
-use crate::robots::{Failure, Parts, Robot};
+use crate::robots::{Failure, Measurement, Parts, Robot};
 
 /// A mission of a robot takes minutes; this is a working day (assumed).
 const PERIOD_H: u32 = 8;
@@ -61,6 +62,27 @@ impl TryFrom<&Robot> for Analysis {
 }
 
 impl Analysis {
+    /// The same analysis with the detection ranks that runs of the robot have shown.
+    ///
+    /// ```
+    /// use cotama_models::fmeca::Analysis;
+    /// use cotama_models::robots::{Measurement, Robot, embedded_measurement};
+    /// let robot = Robot::shipped("p3dx-delivery").unwrap();
+    /// let file = embedded_measurement("p3dx-delivery").unwrap();
+    /// let measurement = Measurement::parse(file.name, file.text, &robot).unwrap();
+    /// let analysis = Analysis::try_from(&robot).unwrap().measured(&robot, &measurement);
+    /// let son2 = analysis.modes().iter().find(|it| it.id == "SON2").unwrap();
+    /// assert_eq!(analysis.criticality(son2).measured, Some(3)); // up to a second, always
+    /// ```
+    #[must_use]
+    pub fn measured(mut self, robot: &Robot, by: &Measurement) -> Self {
+        for it in &mut self.modes {
+            let row = robot.failure(&it.id);
+            it.measured_rank = row.and_then(|row| measured_rank(by.rows.get(&row)?, row));
+        }
+        self
+    }
+
     /// The rows of a robot that comes with the program; `None` where there is none of this name, or
     /// one without rates.
     pub fn shipped(name: &str) -> Option<Self> {
@@ -112,6 +134,7 @@ fn mode(robot: &Robot, it: &Failure) -> Mode {
         sometimes: Set::of(count, it.sometimes.iter().copied()),
         silent: it.unseen.clone(),
         detection_rank: None,
+        measured_rank: None,
         event: it.autonomous.class().name().to_owned(),
         reaction: it.reaction(robot),
         mtbf_mh: it.mean_mh.unwrap_or(1),

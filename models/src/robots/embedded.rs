@@ -32,6 +32,13 @@ pub const EMBEDDED: [EmbeddedRobot; 3] = [
     },
 ];
 
+/// The measurements that come with the program, by the names of their robots.
+const MEASURED: [EmbeddedRobot; 1] = [EmbeddedRobot {
+    name: "p3dx-delivery",
+    description: "detections by signals on the delivery",
+    text: include_str!("../../robots/p3dx-delivery.measured.toml"),
+}];
+
 /// The file of this name.
 ///
 /// ```
@@ -45,6 +52,13 @@ pub const EMBEDDED: [EmbeddedRobot; 3] = [
 /// ```
 pub fn embedded(name: &str) -> Option<EmbeddedRobot> {
     EMBEDDED.into_iter().find(|it| it.name == name)
+}
+
+/// The measured detections of a robot that comes with the program, as
+/// [`Measurement::parse`](super::Measurement::parse) reads them; `None` where they were not
+/// measured. The first line of the file says by which command they were.
+pub fn embedded_measurement(name: &str) -> Option<EmbeddedRobot> {
+    MEASURED.into_iter().find(|it| it.name == name)
 }
 
 impl Robot {

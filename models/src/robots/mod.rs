@@ -64,6 +64,7 @@ mod in_time;
 pub mod known;
 mod losses;
 mod masking;
+mod measured;
 mod powered;
 mod printed;
 mod reached;
@@ -86,11 +87,12 @@ pub use crate::level::{
     Told, Where,
 };
 pub use decision::{Decision, Situation, ask_first, decide};
-pub use embedded::{EMBEDDED, EmbeddedRobot, embedded};
+pub use embedded::{EMBEDDED, EmbeddedRobot, embedded, embedded_measurement};
 pub use file::RobotFile;
 pub use fired::{Fired, fired, name_of};
 pub use known::FORMAT;
 pub use losses::{Loss, Losses, Report};
+pub use measured::{Detection, MAX_MEASURED_RUNS, MEASURED_FORMAT, Measurement};
 pub use powered::{Battery, Motors};
 pub use printed::to_rust;
 pub use reaction::{Mask, Try};

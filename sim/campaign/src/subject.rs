@@ -8,6 +8,7 @@ use crate::space::{Rates, Space};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Definition, Mission};
+use cotama_models::robots::Measurement;
 use cotama_models::team::scenario::Scenario;
 use cotama_sim::fleet;
 use cotama_sim::options::{FaultChoice, Fidelity, Options, Planner, upward};
@@ -15,6 +16,7 @@ use cotama_sim::robots::{self, Driven, Monitor, Undriven, Unmonitored};
 use cotama_sim::run::NoPlan;
 use cotama_sim::setup::Simulation;
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
 mod story;
 mod unready;
@@ -144,6 +146,16 @@ impl<'m> Subject<'m> {
     #[must_use]
     pub fn named(self, source: &str) -> Self {
         Self { source: Some(source.to_owned()), ..self }
+    }
+
+    /// The same, with failures that are found as they were measured, in place of assumed latencies:
+    /// each run draws by its failures and their times. A mission without supervisors, and a team,
+    /// are left as they are.
+    #[must_use]
+    pub fn measured(self, measurement: Arc<Measurement>) -> Self {
+        let Robot::Driven(mission, driven, monitors) = self.robot else { return self };
+        let driven = Box::new(driven.measured(measurement));
+        Self { robot: Robot::Driven(mission, driven, monitors), ..self }
     }
 
     /// Returns the policy: planner and adaptation.

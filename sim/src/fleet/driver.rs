@@ -146,7 +146,7 @@ impl Driver {
     /// Something fails.
     pub(super) fn fail(&mut self, now: u64, row: Row) {
         self.go(now);
-        self.moving.failures.fail(Millis(now), row.number());
+        self.moving.failures.fail(KIND.robot, Millis(now), row.number());
         self.calm = false;
     }
 

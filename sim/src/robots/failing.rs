@@ -1,5 +1,6 @@
 //! The failures of a robot under way: how they change its motion, and when observers see them.
 
+use super::drawn::{Drawing, Drawn};
 use crate::body::{FIRMWARE_WATCHDOG, Motion, Moves};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::level::{Hidden, Tables};
@@ -15,6 +16,8 @@ pub(crate) struct Failure {
     /// For how long observers have been able to see it, and for how long it was to be seen.
     seen: Millis,
     shown: Millis,
+    /// Its detection, where that is drawn from measured ones.
+    drawn: Option<Drawn>,
     /// Whether its flags are up.
     pub(crate) found: bool,
     pub(crate) over: bool,
@@ -32,6 +35,19 @@ pub(crate) struct Failures {
     pub(crate) unseen: Millis,
     /// The flags that are up by signals of the robot; `None` where all flags are told.
     pub(crate) signals: Option<u64>,
+    /// Measured detections, of which each failure that is told draws its own.
+    pub(crate) drawing: Option<Drawing>,
+}
+
+impl Failure {
+    /// Returns the time in which observers see it; `None` where they never do. A measured delay
+    /// counts from the period of the failure, in which observers look for the first time.
+    fn latency(&self, row: &robots::Failure, period: u64) -> Option<Millis> {
+        match self.drawn {
+            None => Some(row.latency),
+            Some(drawn) => drawn.after.map(|it| Millis(it.0.saturating_add(period))),
+        }
+    }
 }
 
 /// The time for which a failure that is over by itself may still show itself.
@@ -55,9 +71,23 @@ impl Failures {
     }
 
     /// Something fails.
-    pub(crate) fn fail(&mut self, now: Millis, number: usize) {
+    pub(crate) fn fail(&mut self, robot: &Robot, now: Millis, number: usize) {
         let (seen, shown, found, over) = (Millis(0), Millis(0), false, false);
-        self.all.push(Failure { number, since: now, seen, shown, found, over });
+        let drawn = self.drawing.as_ref().and_then(|it| it.draw(robot, number, now));
+        self.all.push(Failure { number, since: now, seen, shown, drawn, found, over });
+    }
+
+    /// Returns the rows that a failure is told as where a measured detection was drawn for it.
+    fn taken(&self, it: &Failure) -> Option<&[usize]> {
+        Some(self.drawing.as_ref()?.taken(it.number, it.drawn?))
+    }
+
+    /// Returns the flags that a failure raises when it is told, a bit each: its own, or those of
+    /// the rows for which it is taken.
+    fn told_flags(&self, tables: &Tables<'_>, it: &Failure) -> u64 {
+        let flags = |row: usize| tables.failures.get(row).map_or(0, |it| it.flags);
+        self.taken(it)
+            .map_or_else(|| flags(it.number), |it| it.iter().fold(0, |set, row| set | flags(*row)))
     }
 
     /// Ends the failures that end by themselves by now, and those for which `ended` says so.
@@ -158,7 +188,8 @@ impl Failures {
     }
 
     /// Returns the flags that are raised from now on, by signals and by failures that are told, and
-    /// the rows that they are taken for, but for what masks hide.
+    /// the rows that they are taken for, but for what masks hide. A failure with a measured
+    /// detection is taken for what it was then.
     pub(crate) fn diagnosed(
         &self,
         robot: &Robot,
@@ -168,20 +199,33 @@ impl Failures {
     ) -> (Vec<usize>, Vec<usize>) {
         let is_told =
             |it: &&Failure| !robot.failures.get(it.number).is_some_and(|it| self.is_sensed(it));
-        let flags = |it: &Failure| tables.failures.get(it.number).map_or(0, |it| it.flags);
         let rows = seen.iter().filter_map(|it| self.all.get(*it)).filter(is_told);
-        let raised = rows.fold(new, |set, it| set | flags(it));
+        let (drawn, assumed): (Vec<_>, Vec<_>) = rows.partition(|it| it.drawn.is_some());
+        let raised = assumed.into_iter().fold(new, |set, it| set | self.told_flags(tables, it));
         let open = self.all.iter().filter(|it| it.found && !it.over).filter(is_told);
-        let up = open.fold(self.signals.unwrap_or(0), |set, it| set | flags(it));
+        let up = open.fold(self.signals.unwrap_or(0), |set, it| set | self.told_flags(tables, it));
         let taken = hidden.diagnose(tables.failures, up, raised);
-        (members(raised).collect(), taken.worst_first(tables.failures).collect())
+        let mut taken: Vec<_> = taken.worst_first(tables.failures).collect();
+        let is_hidden = |row: usize| {
+            tables.failures.get(row).is_none_or(|it| hidden.reports >> (it.report % 64) & 1 == 1)
+        };
+        for row in drawn.iter().filter_map(|it| self.taken(it)).flatten() {
+            if !is_hidden(*row) && !taken.contains(row) {
+                taken.push(*row);
+            }
+        }
+        let raised = drawn.into_iter().fold(raised, |set, it| set | self.told_flags(tables, it));
+        (members(raised).collect(), taken)
     }
 
     /// Returns the reports of failures that observers see now, a bit each.
     pub(crate) fn shown(&self, tables: &Tables<'_>) -> u64 {
+        let report = |row: usize| tables.failures.get(row).map_or(0, |it| 1 << it.report);
         let seen = self.all.iter().filter(|it| it.found && !it.over);
-        let seen = seen.filter_map(|it| tables.failures.get(it.number));
-        let told = seen.fold(0, |set, it| set | 1 << it.report);
+        let told = seen.fold(0, |set, it| match self.taken(it) {
+            Some(rows) => rows.iter().fold(set, |set, row| set | report(*row)),
+            None => set | report(it.number),
+        });
         // Of signals, all that their flags speak of: nobody knows which of it there is.
         let up = self.signals.unwrap_or(0);
         let spoken_of = tables.failures.iter().filter(|it| it.flags & up != 0);
@@ -262,18 +306,18 @@ impl Failures {
 
     /// Observers look for a period; returns the failures that are seen from now on.
     pub(crate) fn look(&mut self, robot: &Robot, place: Where) -> Vec<usize> {
-        let (broken, period) = (self.broken(robot), self.period.0);
+        let (watched, period) = (self.watched(robot), self.period.0);
         let mut seen = Vec::new();
-        for (at, it) in self.all.iter_mut().enumerate() {
+        for (at, (it, is_watched)) in self.all.iter_mut().zip(watched).enumerate() {
             let Some(row) = robot.failures.get(it.number) else { continue };
             let is_sensed = self.signals.is_some() && row.harm.is_some();
-            if it.over || it.found || is_sensed || !is_shown(robot, row, place) {
+            if it.over || it.found || is_sensed || !is_shown(robot, it, row, place) {
                 continue;
             }
             it.shown.0 += period;
-            if is_watched(robot, row, broken) {
+            if is_watched {
                 it.seen.0 += period;
-                it.found = it.seen >= row.latency;
+                it.found = it.latency(row, period).is_some_and(|latency| it.seen >= latency);
                 seen.extend(it.found.then_some(at));
             }
             if !it.found {
@@ -287,24 +331,38 @@ impl Failures {
     /// In how many periods observers see nothing new while the robot stays where it is in its
     /// drive.
     pub(crate) fn unseen_for(&self, robot: &Robot, place: Where) -> u64 {
-        let broken = self.broken(robot);
-        let open = self.open(robot).filter(|it| !it.0.found);
-        let open =
-            open.filter(|it| is_shown(robot, it.1, place) && is_watched(robot, it.1, broken));
-        let left =
-            open.map(|it| it.1.latency.0.saturating_sub(it.0.seen.0).div_ceil(self.period.0));
+        let open = self.all.iter().zip(self.watched(robot)).filter(|it| !it.0.over && !it.0.found);
+        let left = open.filter(|it| it.1).filter_map(|(it, _)| {
+            let row = robot.failures.get(it.number)?;
+            let latency = it.latency(row, self.period.0)?;
+            let is_shown = is_shown(robot, it, row, place);
+            is_shown.then(|| latency.0.saturating_sub(it.seen.0).div_ceil(self.period.0))
+        });
         left.min().map_or(u64::MAX, |it| it.saturating_sub(1))
+    }
+
+    /// Returns for each failure whether an observer works that raises a flag of it, or of a row for
+    /// which it is taken.
+    fn watched(&self, robot: &Robot) -> Vec<bool> {
+        let broken = self.broken(robot);
+        let is_watched =
+            |row: usize| robot.failures.get(row).is_some_and(|it| is_watched(robot, it, broken));
+        let all = self.all.iter().map(|it| match self.taken(it) {
+            Some(rows) => rows.iter().any(|it| is_watched(*it)),
+            None => is_watched(it.number),
+        });
+        all.collect()
     }
 
     /// Observers look for so many periods in which they see nothing new.
     pub(crate) fn look_on(&mut self, robot: &Robot, place: Where, periods: u64) {
-        let (broken, period) = (self.broken(robot), self.period.0);
-        for it in self.all.iter_mut().filter(|it| !it.over && !it.found) {
+        let (watched, period) = (self.watched(robot), self.period.0);
+        let open = self.all.iter_mut().zip(watched).filter(|it| !it.0.over && !it.0.found);
+        for (it, is_watched) in open {
             let Some(row) = robot.failures.get(it.number) else { continue };
-            if is_shown(robot, row, place) {
+            if is_shown(robot, it, row, place) {
                 it.shown.0 += period * periods;
-                let watched = is_watched(robot, row, broken);
-                it.seen.0 += if watched { period * periods } else { 0 };
+                it.seen.0 += if is_watched { period * periods } else { 0 };
                 let late = it.shown.0.saturating_sub(row.latency.0);
                 self.unseen = self.unseen.max(Millis(late));
             }
@@ -325,13 +383,15 @@ impl Failures {
 
 /// Whether flags show a failure now: what shows in motion alone does where the robot is to move,
 /// and a silent operator where he is waited for.
-fn is_shown(robot: &Robot, row: &robots::Failure, place: Where) -> bool {
+fn is_shown(robot: &Robot, it: &Failure, row: &robots::Failure, place: Where) -> bool {
     let is_shown_by_motion = matches!(row.motion, Motion::Blocked | Motion::Slowed(_));
     let waits = place == Where::Waits || mode(robot, place) == Some(Mode::Operator);
     if row.unanswered && !waits {
         return false;
     }
-    row.unseen.is_none() && !row.flags.is_empty() && (!is_shown_by_motion || moves(robot, place))
+    let is_seen = row.unseen.is_none() && !row.flags.is_empty();
+    let is_measured = it.drawn.is_some_and(|it| it.after.is_some());
+    (is_seen || is_measured) && (!is_shown_by_motion || moves(robot, place))
 }
 
 /// Whether an observer that raises a flag of a failure works.

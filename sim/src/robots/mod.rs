@@ -16,6 +16,7 @@
 //! assert_eq!((run.outcome, run.operator_requests), (Outcome::Completed, 0));
 //! ```
 
+mod drawn;
 pub(crate) mod failing;
 mod hindered;
 mod measure;
@@ -25,6 +26,7 @@ mod script;
 mod summary;
 #[cfg(test)]
 mod twin;
+mod undriven;
 mod world;
 
 use crate::body::Ground;
@@ -32,20 +34,21 @@ use crate::options::{Fidelity, Options, Planner};
 use crate::plan::{Plannable, Planning, Progress};
 use crate::record::{Recorder, Silent};
 use crate::run::{NoPlan, Outcome, PlanMade};
-use cotama_core::monitor::MonitorError;
 use cotama_core::player::{Packed, Program, words};
-use cotama_core::system::SystemError;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::Mission;
 use cotama_models::robots::supervisors::{self, OwnedSystem};
-use cotama_models::robots::{Decision, OwnedTables, Told, Where};
+use cotama_models::robots::{Decision, Measurement, OwnedTables, Told, Where};
 use cotama_plane::{Course, NoCourse};
 use cotama_senses::Bench;
-pub use measure::{Measured, WINDOW};
+use drawn::Drawing;
+pub use measure::WINDOW;
 use monitor::Watching;
 pub use monitor::{Monitor, Unmonitored, Violation};
 pub use script::{Answers, DoorChange, Injection, Script};
 use std::collections::BTreeSet;
+use std::sync::Arc;
+pub use undriven::Undriven;
 use world::World;
 
 /// The result of a run.
@@ -140,6 +143,8 @@ pub struct Driven<'m> {
     after: Millis,
     /// The longest time of a detection, of runs that are only about that of their first failure.
     window: Option<Millis>,
+    /// Measured detections, in place of assumed latencies, of failures that are told.
+    measured: Option<Arc<Measurement>>,
 }
 
 /// The supervisors, packed into the smallest memory that holds them.
@@ -154,35 +159,6 @@ pub(crate) const SMALL: usize = 8;
 const LARGE: usize = 64;
 /// The most events that can wait in the mailboxes of the supervisors.
 pub(crate) const SLOTS: usize = 256;
-
-/// Why a mission is not driven by the supervisors of a robot's file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Undriven {
-    /// The mission names no robot.
-    Plain,
-    /// The supervisors are too large to be played.
-    TooLarge(SystemError),
-    /// The limits cannot be watched.
-    Unwatchable(MonitorError),
-    /// The robot cannot drive over the floor.
-    NoCourse(NoCourse),
-    /// The devices of the robot cannot be made.
-    NoSenses(String),
-}
-
-impl std::fmt::Display for Undriven {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Plain => f.write_str("the mission names no robot that has a file"),
-            Self::TooLarge(why) => write!(f, "the robot's supervisors cannot be played: {why}"),
-            Self::NoCourse(why) => write!(f, "the robot cannot drive in the plane: {why}"),
-            Self::NoSenses(why) => write!(f, "the robot cannot sense: {why}"),
-            Self::Unwatchable(why) => write!(f, "the limits cannot be watched: {why}"),
-        }
-    }
-}
-
-impl std::error::Error for Undriven {}
 
 impl<'m> Driven<'m> {
     /// Makes a mission ready; [the planner of the mission](Planner::of) plans.
@@ -233,6 +209,7 @@ impl<'m> Driven<'m> {
             monitors,
             after,
             window: None,
+            measured: options.measured.clone(),
         })
     }
 
@@ -256,10 +233,17 @@ impl<'m> Driven<'m> {
         Self { after, ..self }
     }
 
-    /// Noise and people of its runs are drawn by this seed.
+    /// Noise and people of its runs are drawn by this seed, and measured detections.
     #[must_use]
     pub fn seeded(self, seed: u64) -> Self {
         Self { seed, ..self }
+    }
+
+    /// Failures that are told are found as they were measured, in place of assumed latencies: each
+    /// draws one of its measured runs, by the seed and its time.
+    #[must_use]
+    pub fn measured(self, measurement: Arc<Measurement>) -> Self {
+        Self { measured: Some(measurement), ..self }
     }
 
     /// Returns the floor that it goes over, of runs in the plane.
@@ -313,6 +297,9 @@ impl<'m> Driven<'m> {
         let Some(mut world) = world else {
             return Err(NoPlan::Infeasible); // a mission that is driven has a robot with a body
         };
+        if let Some(it) = &self.measured {
+            world.draw(Drawing::new(Arc::clone(it), self.seed));
+        }
         match self.window {
             None => {
                 world.run(recorder);

@@ -4,6 +4,7 @@
 //! lower their flags, which are diagnosed; the supervisors take a round and are told one thing. So
 //! a run is a run of the nets that were checked.
 
+use super::drawn::Drawing;
 use super::failing::Failures;
 use super::hindered::Hindered;
 use super::monitor::Watching;
@@ -185,6 +186,11 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         })
     }
 
+    /// Failures that are told are found as they were measured; by signals none is told.
+    pub(super) fn draw(&mut self, drawing: Drawing) {
+        self.failures.drawing = Some(drawing).filter(|_| self.failures.signals.is_none());
+    }
+
     /// Runs to the end.
     pub(super) fn run<R: Recorder>(&mut self, recorder: &mut R) {
         let mut recording = Recording::new(recorder);
@@ -338,7 +344,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         until: Option<Moment>,
         recording: &mut Recording<'_, R>,
     ) {
-        self.failures.fail(self.now, failure);
+        self.failures.fail(self.robot, self.now, failure);
         self.until.push(until);
         self.run.conduct.push(Conduct {
             failure,

@@ -13,7 +13,9 @@ use cotama_core::monitor::Upward;
 use cotama_core::units::Millis;
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, MissionErrors};
+use cotama_models::robots::Measurement;
 use std::fmt;
+use std::sync::Arc;
 
 /// Why a recorded run cannot be made.
 ///
@@ -133,6 +135,10 @@ impl Trace {
                 upward,
                 fidelity: options.fidelity,
                 people: options.people,
+                measured: options.measured.as_ref().and_then(|it| {
+                    let robot = mission.robot()?.robot();
+                    Some(it.to_toml(robot, "see the file that the run was given"))
+                }),
             },
             limits: mission.limits.into(),
             path_length_mm: mission.path_length.0,
@@ -165,6 +171,9 @@ impl Trace {
         let upward = recorded
             .upward
             .map(|upward| Upward { growth: upward.growth.into(), reserve: upward.reserve.into() });
+        let measured = recorded.measured.as_ref().zip(mission.robot());
+        let measured = measured.map(|(text, it)| Measurement::parse("measured", text, it.robot()));
+        let measured = measured.transpose()?;
         Ok(Options {
             seed: recorded.seed,
             faults,
@@ -174,6 +183,7 @@ impl Trace {
             upward,
             fidelity: recorded.fidelity,
             people: recorded.people,
+            measured: measured.map(Arc::new),
         })
     }
 }

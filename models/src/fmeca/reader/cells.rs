@@ -42,7 +42,17 @@ const KEYS: [(&str, &[&str]); 27] = [
     ("detection_rank", &[]),
 ];
 /// Columns that are computed anew.
-const COMPUTED: [&str; 5] = ["s", "o", "d", "rpn", "criticality"];
+const COMPUTED: [&str; 9] = [
+    "s",
+    "o",
+    "d",
+    "rpn",
+    "criticality",
+    "action_priority",
+    "d_measured",
+    "rpn_measured",
+    "action_priority_measured",
+];
 /// Columns without which there is no row.
 const NEEDED: [&str; 7] = ["id", "function", "component", "failure", "cause", "effect", "severity"];
 

@@ -307,6 +307,7 @@ pub(super) fn read(row: &mut impl Row) -> Option<Draft> {
         sometimes: Set::none(0),
         silent: silent.ok()?,
         detection_rank: detection_rank.ok()?.map(|it| it as u8),
+        measured_rank: None,
         event: event.ok()?.unwrap_or_default(),
         reaction: reaction.ok()?.unwrap_or_default(),
         mtbf_mh: mtbf_mh.ok()?,

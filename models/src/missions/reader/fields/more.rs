@@ -2,6 +2,7 @@
 
 use super::{Fields, Reported, Sink};
 use crate::missions::diagnostic::Spanned;
+use std::ops::RangeInclusive;
 use toml::de::DeValue;
 
 impl<'t> Fields<'t> {
@@ -101,5 +102,25 @@ impl<'t> Fields<'t> {
         let tables = self.tables(key, required);
         self.most_entries = usual;
         tables
+    }
+
+    /// A required list of integers within a range, with at least one and at most `most` of them.
+    pub fn integers_up_to<T: TryFrom<i64>>(
+        &mut self,
+        key: &'static str,
+        range: RangeInclusive<i64>,
+        most: usize,
+    ) -> Option<Vec<T>> {
+        let node = self.required(key)?;
+        let usual = std::mem::replace(&mut self.most_entries, most);
+        let items = self.items(key, node);
+        self.most_entries = usual;
+        let items = items?;
+        if items.is_empty() {
+            self.report_empty(key, node);
+            return None;
+        }
+        let all: Vec<_> = items.iter().map(|item| self.integer_of(key, item, &range)).collect();
+        all.into_iter().collect()
     }
 }
