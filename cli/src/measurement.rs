@@ -1,4 +1,4 @@
-//! Measured detections of a robot's failures, from a file or of a robot that comes with the program.
+//! Measured detections of a robot's failures: of a file, or of a robot that comes with them.
 
 use crate::exit::Failure;
 use crate::input;

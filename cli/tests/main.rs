@@ -22,6 +22,7 @@ mod export;
 mod file_schemas;
 mod floor;
 mod fmeca;
+mod fmeca_measured;
 mod fmeca_page;
 mod help;
 mod hints;

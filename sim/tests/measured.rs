@@ -131,7 +131,7 @@ fn a_run_with_measured_detections_is_run_again_from_its_trace_alone() {
     let trace = Trace::record(&DELIVERY, &options).unwrap().0;
     let read = Trace::parse("delivery.jsonl", &trace.to_json_lines()).unwrap();
     assert!(replay(&read).unwrap().identical);
-    // It is the measurement that the seed draws from: assumed latencies lead elsewhere.
+    // The seed draws from the measurement: assumed latencies lead elsewhere.
     let assumed = Options { measured: None, ..options };
     assert_ne!(Trace::record(&DELIVERY, &assumed).unwrap().0.records, trace.records);
 }

@@ -42,7 +42,7 @@ pub(crate) fn screen(answer: &MeasureAnswer, width: usize) -> String {
     title + &table.render(width) + &wrapped(&after, width, "")
 }
 
-/// What is not as assumed, or else what it was taken for beside itself.
+/// Returns what is not as assumed, or else the rows that were named beside it.
 fn reason(it: &MeasureRow) -> String {
     let together = it.taken_for.iter().find(|it| it.rows.len() > 1);
     it.why.clone().unwrap_or_else(|| {

@@ -48,7 +48,7 @@ fn read(mut root: Fields<'_>, robot: &Robot) -> Option<Measurement> {
         );
         let help = "measure this one: cotama fmeca --measure MISSION --output FILE.toml";
         root.report(Diagnostic::new(name.span.clone(), message, "another robot").help(help));
-        // What it says of failures is of the other one.
+        // Failures are those of the other one.
         return None;
     }
     let mission = root.text("mission");
