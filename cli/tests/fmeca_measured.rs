@@ -72,7 +72,8 @@ fn failures_on_a_line_are_found_as_they_were_measured() {
     let found = &answer["supervised"]["failures"][0];
     let after = found["detected_ms"].as_u64().unwrap() - found["t_ms"].as_u64().unwrap();
     assert_eq!((after, &found["candidates"]), (4_700, &json!(["BAT1"])));
-    assert_eq!(folder.cotama(&["replay", "t.jsonl"]).code, Some(0));
+    let again = folder.cotama(&["replay", "t.jsonl", "--json"]).json(1);
+    assert_eq!(again["identical"], true);
     let signals = folder.cotama(&[&run[..], &["--fidelity", "signal"]].concat());
     assert_eq!(signals.code, Some(2));
     assert!(signals.stderr.contains("by signals none is told"), "{}", signals.stderr);
