@@ -39,7 +39,7 @@ use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::Mission;
 use cotama_models::robots::supervisors::{self, OwnedSystem};
 use cotama_models::robots::{Decision, Measurement, OwnedTables, Told, Where};
-use cotama_plane::{Course, NoCourse};
+use cotama_plane::Course;
 use cotama_senses::Bench;
 use drawn::Drawing;
 pub use measure::WINDOW;
