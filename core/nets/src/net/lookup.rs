@@ -64,12 +64,21 @@ impl Source<'_> {
         let places = self.places.len();
         let mut before = 0;
         let lists = [self.places, self.flags, self.counters, self.shared];
+        // Compared here: an interpreter evaluates this most of all, and calls cost it most.
+        let wanted = name.as_bytes();
+        let size = wanted.len();
         let mut list = 0;
         while list < lists.len() {
-            let length = lists[list].len();
+            let declared = lists[list];
+            let length = declared.len();
             let mut at = 0;
             while at < length {
-                if same(lists[list][at].name, name) {
+                let found = declared[at].name.as_bytes();
+                let mut byte = 0;
+                while byte < size && found.len() == size && found[byte] == wanted[byte] {
+                    byte += 1;
+                }
+                if byte == size && found.len() == size {
                     let place = before + at;
                     return if list == 0 {
                         Found::Place(place)
@@ -150,14 +159,22 @@ impl Source<'_> {
     }
 }
 
-#[track_caller]
-pub(super) const fn signal(text: Text, what: &str, signals: &[Signal<'_>], name: &str) -> u32 {
+/// The position of an event or output of this name.
+pub(super) const fn position(signals: &[Signal<'_>], name: &str) -> Option<u32> {
     let mut at = 0;
     while at < signals.len() {
         if same(signals[at].name, name) {
-            return at as u32;
+            return Some(at as u32);
         }
         at += 1;
+    }
+    None
+}
+
+#[track_caller]
+pub(super) const fn signal(text: Text, what: &str, signals: &[Signal<'_>], name: &str) -> u32 {
+    if let Some(at) = position(signals, name) {
+        return at;
     }
     let mut known = [""; 256];
     let count = if signals.len() < known.len() { signals.len() } else { known.len() };

@@ -1,7 +1,7 @@
 //! From what was written to a [`Net`](super::Net): names are looked up, lines become transitions.
 
 use super::data::{Arc, EventId, Ignored, Law, OutputId, Place, PlaceId, Role, Transition, Within};
-use super::lookup::{Meant, signal};
+use super::lookup::{Meant, position, signal};
 use super::size::{Size, complement_affix, put};
 use super::source::{Claim, Ignore, Line, Source};
 use super::text::{Text, as_str, same};
@@ -119,15 +119,16 @@ impl<
         let source = self.source;
         let line = &source.lines[at];
         let emits = self.outputs(line);
-        let on = if line.on.is_empty() {
-            None
-        } else {
-            Some(source.event(source.at_line(line), line.on))
+        // The text of an error is made for an error alone.
+        let on = match position(source.events, line.on) {
+            Some(event) => Some(EventId(event)),
+            None if line.on.is_empty() => None,
+            None => Some(source.event(source.at_line(line), line.on)),
         };
         let variants = source.variants(line);
         let mut several = 0;
         let mut number = 0;
-        while variants > 1 && number < variants {
+        while variants > 1 && several < 2 && number < variants {
             several += source.variant(line, number).possible as usize;
             number += 1;
         }
@@ -172,9 +173,11 @@ impl<
         let start = self.size.emits;
         let mut at = 0;
         while at < line.emits.len() {
-            let text = self.source.at_line(line);
-            self.emits[start + at] =
-                OutputId(signal(text, "output", self.source.outputs, line.emits[at]));
+            let (outputs, name) = (self.source.outputs, line.emits[at]);
+            self.emits[start + at] = OutputId(match position(outputs, name) {
+                Some(output) => output,
+                None => signal(self.source.at_line(line), "output", outputs, name),
+            });
             at += 1;
         }
         self.size.emits += line.emits.len();

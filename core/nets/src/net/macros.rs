@@ -243,9 +243,10 @@ macro_rules! net {
             const SYSTEM: $crate::system::System<'static> =
                 $crate::system::System::alone(ALONE);
             const MOST: net_code::Size = $crate::player::size::size_of(&SYSTEM);
-            const CODE_SIZE: net_code::Size =
-                <$crate::__arrays!(MOST)>::of(&SYSTEM).exact(MOST);
-            const ARRAYS: &$crate::__arrays!(CODE_SIZE) = &$crate::player::Arrays::of(&SYSTEM);
+            const LONG: &$crate::__arrays!(MOST) = &$crate::player::Arrays::of(&SYSTEM);
+            const CODE_SIZE: net_code::Size = LONG.exact(MOST);
+            const ARRAYS: &$crate::__arrays!(CODE_SIZE) =
+                &$crate::player::Arrays::cut(&LONG.code(0, false));
 
             /// How the net was checked.
             pub const KNOWN: $crate::net::Known =

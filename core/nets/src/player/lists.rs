@@ -184,12 +184,28 @@ macro_rules! owned {
             const M: usize,
         > Arrays<W, T, Y, Z, K, R, O, D, B, N, P, X, C, E, G, I, L, M>
         {
-            /// Packs a system; the lengths are those of [`size_of`], or those that
-            /// [`exact`](Self::exact) says.
+            /// Packs a system; the lengths are those of [`size_of`].
             pub const fn of(system: &crate::system::data::System<'_>) -> Self {
                 let mut it = Self { $( $list: [$nothing; $length], )* words: Words::NOTHING };
                 it.words = pack(system, &mut Lists { $( $list: &mut it.$list, )* });
                 it
+            }
+
+            /// The same lists as these, which are longer or as long.
+            ///
+            /// # Panics
+            /// When one of them is shorter than the one here: at compile time.
+            pub const fn cut(longer: &Code<'_, W>) -> Self {
+                let Code { guards, bounds, initial, restless, control, states, fingerprint, .. } =
+                    *longer;
+                let (needs, deltas) = (Y as u16, Z as u16);
+                Self {
+                    $( $list: first(longer.$list), )*
+                    words: Words {
+                        guards, bounds, initial, restless, control, states, fingerprint, needs,
+                        deltas,
+                    },
+                }
             }
 
             /// The size of what is packed, given the one that [`size_of`] says.

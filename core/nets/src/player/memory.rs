@@ -7,6 +7,14 @@ use super::pack::pack;
 
 each_list!(owned);
 
+/// The first items of a list, as many as an array has.
+const fn first<T: Copy, const N: usize>(list: &[T]) -> [T; N] {
+    match list.first_chunk() {
+        Some(first) => *first,
+        None => panic!("the list is longer than the array"),
+    }
+}
+
 /// The type of the arrays of this size.
 #[doc(hidden)]
 #[macro_export]

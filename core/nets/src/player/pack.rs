@@ -227,7 +227,8 @@ const fn arcs<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>, wor
 const fn once<const W: usize>(list: &mut [[u64; W]], count: &mut u16, words: &[u64; W]) -> u16 {
     let end = *count as usize;
     let mut at = if W == 1 { 0 } else { end };
-    while at > end.saturating_sub(NEARBY) {
+    let first = end.saturating_sub(NEARBY);
+    while at > first {
         at -= 1;
         let mut word = 0;
         while word < W && list[at][word] == words[word] {

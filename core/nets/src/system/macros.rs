@@ -180,9 +180,11 @@ macro_rules! system {
             };
             /// How many words, clocks and slots its player has, and how long its packed lists
             /// are.
-            pub const SIZE: system_code::Size = <$crate::__arrays!(MOST)>::of(&SYSTEM).exact(MOST);
+            pub const SIZE: system_code::Size = LONG.exact(MOST);
+            const LONG: &$crate::__arrays!(MOST) = &$crate::player::Arrays::of(&SYSTEM);
             // A static: of a constant each crate that uses it may keep a copy.
-            static ARRAYS: $crate::__arrays!(SIZE) = $crate::player::Arrays::of(&SYSTEM);
+            static ARRAYS: $crate::__arrays!(SIZE) =
+                $crate::player::Arrays::cut(&LONG.code($crate::player::SETTLE, false));
             static CODE: system_code::Code<'static, { SIZE.words }> =
                 ARRAYS.code($crate::player::SETTLE, false);
 
