@@ -227,7 +227,8 @@ fn a_system_can_be_checked_in_every_interleaving() {
 #[test]
 fn the_requirements_of_a_system_are_asked_by_their_numbers() {
     let folder = Folder::new("check_requirements_few");
-    let few = ["--engine", "explicit", "--max-states", "1000", "--json"];
+    // Any limit will do. This one spares the work before the first marking of each question.
+    let few = ["--max-seconds", "0", "--json"];
     let answer = check(&folder, "delivery", &[], &few).json(3);
     let rows = answer["results"].as_array().unwrap();
     assert_eq!((&rows[0]["id"], &rows[0]["name"]), (&json!("GS1"), &json!("GS1")));
