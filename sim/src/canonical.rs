@@ -45,12 +45,10 @@ pub struct Differing {
 /// # Errors
 /// The errors of the reader of JSON, for a line that is no such record.
 pub fn read<T: DeserializeOwned + Serialize>(line: &str) -> Result<Read<T>, Wrong> {
-    // Writing these types to memory cannot fail.
-    let text = |record: &T| serde_json::to_string(record).unwrap_or_default();
     let written = line.trim();
     let direct = match read_object::<T>(line) {
         Ok(record) => {
-            let line = text(&record);
+            let line = line_of(&record);
             if line == written {
                 return Ok(Read { record, line, foreign: None });
             }
@@ -62,18 +60,32 @@ pub fn read<T: DeserializeOwned + Serialize>(line: &str) -> Result<Read<T>, Wron
     let floats = make_whole(&mut value);
     let record = match direct {
         Ok(record) => record,
-        Err(error) if floats => serde_json::from_value(value.clone()).map_err(|_| error)?,
+        Err(error) if floats => read_object(&value.to_string()).map_err(|_| error)?,
         Err(error) => return Err(error),
     };
-    let own = serde_json::to_value(&record).unwrap_or_default();
-    Ok(Read { line: text(&record), foreign: differing(&value, &own), record })
+    let line = line_of(&record);
+    Ok(Read { foreign: differing(&value, &value_of(&line)), line, record })
+}
+
+/// The line of a record. Writing these types to memory cannot fail.
+fn line_of<T: Serialize>(record: &T) -> String {
+    serde_json::to_string(record).unwrap_or_default()
+}
+
+/// The value of a line. Records have no fractions, so that a line says all of one; to make the
+/// value of the record itself would compile a second writer for each type.
+fn value_of(line: &str) -> Value {
+    serde_json::from_str(line).unwrap_or_default()
 }
 
 /// The first thing in which two records differ, in the order of the fields of the second.
 pub fn difference<T: Serialize>(first: &T, second: &T) -> Option<Differing> {
-    // Writing these types to memory cannot fail.
-    let value = |it: &T| serde_json::to_value(it).unwrap_or_default();
     differing(&value(first), &value(second))
+}
+
+/// The fields of a record, as JSON.
+pub(crate) fn value<T: Serialize>(record: &T) -> Value {
+    value_of(&line_of(record))
 }
 
 /// Whole floats become integers; whether there were any.

@@ -1,7 +1,7 @@
 //! Comparing a trace with that of the same run made again.
 
 use super::{Head, Line, TraceOf};
-use crate::canonical::{Differing, difference};
+use crate::canonical::{Differing, difference, value};
 
 /// A record that differs from the one that was stored.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -63,6 +63,6 @@ fn differs(number: usize, record: String, field: Option<Differing>) -> Option<Di
 
 /// The kind of a record, as its line names it.
 fn kind(record: &impl Line) -> String {
-    let value = serde_json::to_value(record).unwrap_or_default();
+    let value = value(record);
     value["record"].as_str().unwrap_or_default().to_owned()
 }
