@@ -1,37 +1,22 @@
 //! Files that other programs need of this one: tables for firmware, schemas, completions, manual
 //! pages.
 
-use crate::answers::assign::AssignAnswer;
-use crate::answers::campaign::CampaignAnswer;
-use crate::answers::check::{CheckAnswer, StatespaceAnswer, VerifyAnswer};
-use crate::answers::conform::ConformAnswer;
-use crate::answers::error::ErrorAnswer;
-use crate::answers::estimate::EstimateAnswer;
-use crate::answers::floor::FloorAnswer;
-use crate::answers::fmeca::{FmecaAnswer, MeasureAnswer};
-use crate::answers::model::{ModelsAnswer, SimulateAnswer};
-use crate::answers::new::NewAnswer;
-use crate::answers::team::TeamAnswer;
-use crate::answers::{AllocateAnswer, ListAnswer, PlanAnswer, ReplayAnswer, RunAnswer};
 use crate::args::{self, Cli, CompletionsArgs, ManArgs, SchemaArgs, SchemaName, TableArgs};
 use crate::catalogue::{self, Kind};
 use crate::exit::{Exit, Failure};
 use crate::file_schemas;
 use crate::output::Screen;
 use crate::robot;
+use crate::schemas::AnswerSchema;
 use crate::team::Team;
 use crate::{mission, model};
-use clap::CommandFactory;
 use clap::builder::PossibleValuesParser;
+use clap::{CommandFactory, ValueEnum};
 use clap_complete::Shell;
 use cotama_models::missions::embedded;
 use cotama_models::robots::to_rust;
 use cotama_verification::conform::LINE_SCHEMA;
-use schemars::Schema;
-use schemars::generate::SchemaSettings;
-use schemars::transform::RecursiveTransform;
 use serde::Serialize;
-use serde_json::Value;
 
 /// `cotama table`: the tables of a mission, or the decisional level of a robot, as Rust source.
 pub(crate) fn table(args: &TableArgs, screen: &Screen) -> Result<Exit, Failure> {
@@ -60,52 +45,25 @@ const LEVEL_HEAD: &str = "\
 
 /// `cotama schema`: the JSON schema of an answer, or of a file that users write.
 pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
-    // The schema is of written answers, not of readable ones: a field that is always written is
-    // required.
-    let settings = SchemaSettings::draft2020_12().for_serialize();
-    let schemas = settings.with_transform(RecursiveTransform(in_one_line)).into_generator();
-    let schema = match args.of {
-        SchemaName::List => schemas.into_root_schema_for::<ListAnswer>(),
-        SchemaName::Plan => schemas.into_root_schema_for::<PlanAnswer>(),
-        SchemaName::Run => schemas.into_root_schema_for::<RunAnswer>(),
-        SchemaName::RunTeam => schemas.into_root_schema_for::<TeamAnswer>(),
-        SchemaName::Allocate => schemas.into_root_schema_for::<AllocateAnswer>(),
-        SchemaName::Assign => schemas.into_root_schema_for::<AssignAnswer>(),
-        SchemaName::Replay => schemas.into_root_schema_for::<ReplayAnswer>(),
-        SchemaName::Models => schemas.into_root_schema_for::<ModelsAnswer>(),
-        SchemaName::Simulate => schemas.into_root_schema_for::<SimulateAnswer>(),
-        SchemaName::Check => schemas.into_root_schema_for::<CheckAnswer>(),
-        SchemaName::Statespace => schemas.into_root_schema_for::<StatespaceAnswer>(),
-        SchemaName::Estimate => schemas.into_root_schema_for::<EstimateAnswer>(),
-        SchemaName::Verify => schemas.into_root_schema_for::<VerifyAnswer>(),
-        SchemaName::Error => schemas.into_root_schema_for::<ErrorAnswer>(),
-        SchemaName::Conform => schemas.into_root_schema_for::<ConformAnswer>(),
+    match args.of {
         SchemaName::Recording => {
             Screen::raw(LINE_SCHEMA.as_bytes())?;
-            return Ok(Exit::Success);
+            Ok(Exit::Success)
         }
-        SchemaName::Floor => schemas.into_root_schema_for::<FloorAnswer>(),
-        SchemaName::Fmeca => schemas.into_root_schema_for::<FmecaAnswer>(),
-        SchemaName::Measure => schemas.into_root_schema_for::<MeasureAnswer>(),
-        SchemaName::Campaign => schemas.into_root_schema_for::<CampaignAnswer>(),
-        SchemaName::New => schemas.into_root_schema_for::<NewAnswer>(),
-        SchemaName::Mission => return print(&file_schemas::mission()),
-        SchemaName::Robot => return print(&file_schemas::robot_file()),
-        SchemaName::Faults => return print(&file_schemas::faults()),
-    };
-    print(&schema)
+        SchemaName::Mission => print(&file_schemas::mission()),
+        SchemaName::Robot => print(&file_schemas::robot_file()),
+        SchemaName::Faults => print(&file_schemas::faults()),
+        of => {
+            let command = of.to_possible_value();
+            let schema = command.as_ref().and_then(|it| AnswerSchema::of(it.get_name()));
+            print(&schema.ok_or_else(|| Failure::new("there is no schema of this name"))?)
+        }
+    }
 }
 
 fn print(schema: &impl Serialize) -> Result<Exit, Failure> {
     Screen::json(schema)?;
     Ok(Exit::Success)
-}
-
-/// A description does not show where the comment that it is made of goes on in another line.
-fn in_one_line(schema: &mut Schema) {
-    if let Some(Value::String(text)) = schema.get_mut("description") {
-        *text = text.replace('\n', " ");
-    }
 }
 
 /// `cotama completions`: a completion script.

@@ -13,13 +13,15 @@ pub(crate) mod new;
 pub(crate) mod supervised;
 pub(crate) mod team;
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The answer of `cotama list`.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ListAnswer {
-    #[schemars(extend("const" = "cotama/list/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/list/1")))]
     pub(crate) schema: &'static str,
     /// Missions, for `plan`, `run` and `table`.
     pub(crate) missions: Vec<Listed>,
@@ -34,7 +36,8 @@ pub(crate) struct ListAnswer {
 }
 
 /// Something that comes with the program.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Listed {
     /// Name; of a family of nets with `:N` in place of the number.
     pub(crate) name: String,
@@ -43,7 +46,8 @@ pub(crate) struct Listed {
 }
 
 /// The knowledge of a plan.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Status {
     /// There is a plan, and it is proven that none is better.
@@ -57,9 +61,10 @@ pub(crate) enum Status {
 }
 
 /// The answer of `cotama plan`.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct PlanAnswer {
-    #[schemars(extend("const" = "cotama/plan/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/plan/1")))]
     pub(crate) schema: &'static str,
     /// The name of the mission.
     pub(crate) mission: String,
@@ -104,7 +109,8 @@ pub(crate) struct PlanAnswer {
 }
 
 /// An activity.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ActivityRow {
     pub(crate) id: String,
     pub(crate) objective: String,
@@ -119,7 +125,8 @@ pub(crate) struct ActivityRow {
 }
 
 /// An activity in a plan.
-#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct PlanRow {
     pub(crate) activity: String,
     /// The options taken together, as `M5 L2`.
@@ -133,7 +140,8 @@ pub(crate) struct PlanRow {
 }
 
 /// A plan of the front.
-#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct FrontRow {
     pub(crate) duration_ms: u64,
     pub(crate) energy_mj: u64,
@@ -143,7 +151,8 @@ pub(crate) struct FrontRow {
 }
 
 /// Why there is no plan.
-#[derive(Clone, Debug, Default, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Reason {
     /// The same in words.
     pub(crate) text: String,
@@ -169,7 +178,8 @@ pub(crate) struct Reason {
 }
 
 /// An activity that needs much.
-#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Heavy {
     pub(crate) activity: String,
     /// Cost on the axis of the reason, in ms or mJ, in the plan that needs least there.
@@ -181,7 +191,8 @@ pub(crate) struct Heavy {
 }
 
 /// A change after which there is a plan.
-#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Relaxation {
     #[serde(flatten)]
     pub(crate) change: Change,
@@ -190,7 +201,8 @@ pub(crate) struct Relaxation {
 }
 
 /// The change.
-#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub(crate) enum Change {
     /// Raise one limit, or both.
@@ -209,7 +221,8 @@ pub(crate) enum Change {
 }
 
 /// A constraint of a zone.
-#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ZoneConstraint {
     pub(crate) zone: String,
     /// `hardware` or `option`: what the zone requires.
@@ -217,7 +230,8 @@ pub(crate) struct ZoneConstraint {
 }
 
 /// Hardware that must work.
-#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Kept {
     pub(crate) hardware: String,
     /// So many units must work.
@@ -225,9 +239,10 @@ pub(crate) struct Kept {
 }
 
 /// The answer of `cotama allocate`.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct AllocateAnswer {
-    #[schemars(extend("const" = "cotama/allocate/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/allocate/1")))]
     pub(crate) schema: &'static str,
     pub(crate) status: Status,
     pub(crate) quality: Option<u64>,
@@ -246,7 +261,8 @@ pub(crate) struct AllocateAnswer {
 }
 
 /// How a mission ended.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Outcome {
     /// All activities are done, within the limits.
@@ -259,18 +275,20 @@ pub(crate) enum Outcome {
 }
 
 /// The answer of `cotama run`.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct RunAnswer {
-    #[schemars(extend("const" = "cotama/run/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/run/1")))]
     pub(crate) schema: &'static str,
     #[serde(flatten)]
     pub(crate) run: RunBody,
 }
 
 /// The answer of `cotama replay`.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ReplayAnswer {
-    #[schemars(extend("const" = "cotama/replay/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/replay/1")))]
     pub(crate) schema: &'static str,
     /// Whether the run was the same again: in every record of a trace, or in all that a failure
     /// records of its end; none where nothing is recorded.
@@ -291,7 +309,8 @@ pub(crate) struct ReplayAnswer {
 }
 
 /// A record of a trace that is not the one of now.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct RecordDifference {
     /// Line of the record, from 1.
     pub(crate) line: u64,
@@ -306,7 +325,8 @@ pub(crate) struct RecordDifference {
 }
 
 /// A failure that was run again.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct RecordedFailure {
     /// The requirement that was broken.
     pub(crate) requirement: String,
@@ -321,7 +341,8 @@ pub(crate) struct RecordedFailure {
 }
 
 /// Something that was recorded of an end, and is not so now.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct EndDifference {
     /// Key in the file.
     pub(crate) key: String,
@@ -330,7 +351,8 @@ pub(crate) struct EndDifference {
 }
 
 /// The result of a run.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct RunBody {
     /// The name of the mission.
     pub(crate) mission: String,
@@ -369,7 +391,8 @@ pub(crate) struct RunBody {
 }
 
 /// A plan that came into force.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct PlanMade {
     /// `start`, `energy margin below zero`, `one laser lost` and the like.
     pub(crate) cause: String,
@@ -390,7 +413,8 @@ pub(crate) struct PlanMade {
 }
 
 /// Something that happened to the robot.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct EventRow {
     pub(crate) time_ms: u64,
     pub(crate) x_mm: u64,

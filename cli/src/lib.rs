@@ -44,6 +44,7 @@ mod render;
 mod replay;
 mod robot;
 mod run;
+mod schemas;
 mod show;
 mod simulate;
 mod solve;

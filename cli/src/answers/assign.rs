@@ -1,13 +1,15 @@
 //! The answer of `cotama assign`.
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The answer of `cotama assign`. Costs are in parts, `cost_denominator` of which make a unit, but
 /// for prices and thresholds, which are in units as the costs of the instance.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct AssignAnswer {
-    #[schemars(extend("const" = "cotama/assign/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/assign/1")))]
     pub(crate) schema: &'static str,
     /// The name of the instance.
     pub(crate) name: String,
@@ -31,7 +33,8 @@ pub(crate) struct AssignAnswer {
 }
 
 /// Status of the answer.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum AssignStatus {
     /// No assignment costs less: it is proven.
@@ -43,7 +46,8 @@ pub(crate) enum AssignStatus {
 }
 
 /// A task that is done.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct DoneRow {
     pub(crate) task: String,
     /// The plan; none of a task for one robot.
@@ -55,7 +59,8 @@ pub(crate) struct DoneRow {
 }
 
 /// Tasks that must be done and cannot be staffed together.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct WhyInfeasible {
     pub(crate) tasks: Vec<String>,
     /// The robots that they compete for.
@@ -63,7 +68,8 @@ pub(crate) struct WhyInfeasible {
 }
 
 /// A proof of an answer; all but a search can be added up again by hand.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(tag = "by", rename_all = "snake_case")]
 pub(crate) enum Certificate {
     /// Each task costs at least the less of its `skip_cost` and of its cheapest robot with the
@@ -83,7 +89,8 @@ pub(crate) enum Certificate {
 }
 
 /// Why a plan costs no less.
-#[derive(Debug, Default, JsonSchema, Serialize)]
+#[derive(Debug, Default, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ProofRow {
     pub(crate) plan: String,
     /// Cost of the task by this plan; none where it cannot be carried out.
@@ -105,7 +112,8 @@ pub(crate) struct ProofRow {
 }
 
 /// The result of greedy rounds.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct GreedyRow {
     /// Cost of the tasks that are done, and of leaving the others undone.
     pub(crate) cost: u64,

@@ -1,12 +1,14 @@
 //! The answer of `cotama campaign`.
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The answer of `cotama campaign` and of `cotama campaign merge`.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct CampaignAnswer {
-    #[schemars(extend("const" = "cotama/campaign/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/campaign/1")))]
     pub(crate) schema: &'static str,
     /// The name of the mission.
     pub(crate) mission: String,
@@ -49,7 +51,8 @@ pub(crate) struct CampaignAnswer {
 }
 
 /// How many runs ended how.
-#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Outcomes {
     pub(crate) completed: u64,
     pub(crate) safe: u64,
@@ -58,7 +61,8 @@ pub(crate) struct Outcomes {
 
 /// An estimate with its interval: exact (Clopper and Pearson) for probabilities after a number of
 /// runs that was fixed before.
-#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Measured {
     pub(crate) estimate: f64,
     pub(crate) low: f64,
@@ -68,7 +72,8 @@ pub(crate) struct Measured {
 }
 
 /// A requirement of every run, with its counts.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct RequirementRow {
     /// As on the command line.
     pub(crate) requirement: String,
@@ -80,7 +85,8 @@ pub(crate) struct RequirementRow {
 }
 
 /// Failing runs with one cause.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct FailureRow {
     /// The file that replays it, if it was written.
     pub(crate) fault_file: Option<String>,
@@ -97,7 +103,8 @@ pub(crate) struct FailureRow {
 }
 
 /// The decision of a sequential test.
-#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct DecisionRow {
     /// `at_most`, `more`, or `undecided`.
     pub(crate) verdict: &'static str,
@@ -114,7 +121,8 @@ pub(crate) struct DecisionRow {
 
 /// A mean over the plans that were run, with the interval for all that are drawn so; no interval
 /// where plans were not drawn independently.
-#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Mean {
     pub(crate) estimate: f64,
     pub(crate) low: Option<f64>,
@@ -124,7 +132,8 @@ pub(crate) struct Mean {
 }
 
 /// A policy over the same plans.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct PolicyRow {
     pub(crate) policy: &'static str,
     pub(crate) outcomes: Outcomes,

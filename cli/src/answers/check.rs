@@ -1,14 +1,16 @@
 //! The answers of the commands that check.
 
 use crate::args::Semantics;
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::borrow::Cow;
 
 /// The answer of `cotama check`.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct CheckAnswer {
-    #[schemars(extend("const" = "cotama/check/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/check/1")))]
     pub(crate) schema: &'static str,
     pub(crate) model: String,
     /// Whether transitions fire within their intervals; otherwise in any order, at any time.
@@ -30,14 +32,16 @@ pub(crate) struct CheckAnswer {
 }
 
 /// A check that was interrupted.
-#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Interrupted {
     /// How many properties were asked in all.
     pub(crate) asked: usize,
 }
 
 /// The answer to a property.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ResultRow {
     pub(crate) name: String,
     /// The number of a requirement.
@@ -84,7 +88,8 @@ pub(crate) struct ResultRow {
 }
 
 /// Parts that no run uses.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct UnusedRow {
     /// Transitions that never fire.
     pub(crate) transitions: Vec<NeverRow>,
@@ -95,7 +100,8 @@ pub(crate) struct UnusedRow {
 }
 
 /// A transition that never fires, or a place that is never marked.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct NeverRow {
     pub(crate) name: String,
     /// Why, as far as single places and transitions tell; names stand in backticks.
@@ -103,7 +109,8 @@ pub(crate) struct NeverRow {
 }
 
 /// The time from a firing to a marking, of `bound(t -> p)`; null if the transition never fires.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ResponseRow {
     /// The least.
     pub(crate) min: Option<Amount>,
@@ -112,7 +119,8 @@ pub(crate) struct ResponseRow {
 }
 
 /// The verdict on a property.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum VerdictName {
     True,
@@ -122,7 +130,8 @@ pub(crate) enum VerdictName {
 }
 
 /// A number, or that there is none so large.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(untagged)]
 pub(crate) enum Amount {
     Finite(u64),
@@ -130,14 +139,16 @@ pub(crate) enum Amount {
 }
 
 /// More than any number.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) enum Infinite {
     #[serde(rename = "inf")]
     Inf,
 }
 
 /// The kind of evidence for a verdict.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum EvidenceName {
     /// The verdict is as good as the engine.
@@ -175,7 +186,8 @@ impl EvidenceName {
 }
 
 /// A firing.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct FiringRow {
     pub(crate) transition: String,
     /// The event that it answers.
@@ -192,7 +204,8 @@ pub(crate) struct FiringRow {
 }
 
 /// The tokens of a place before and after a firing.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ChangeRow {
     pub(crate) place: String,
     pub(crate) before: u32,
@@ -200,7 +213,8 @@ pub(crate) struct ChangeRow {
 }
 
 /// How a run goes on after its trace.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum RestRow {
     /// In any way.
@@ -212,9 +226,10 @@ pub(crate) enum RestRow {
 }
 
 /// The answer of `cotama statespace`. Counts are strings, as they can pass 64 bits.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct StatespaceAnswer {
-    #[schemars(extend("const" = "cotama/statespace/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/statespace/1")))]
     pub(crate) schema: &'static str,
     pub(crate) model: String,
     /// Whether transitions fire within their intervals; otherwise in any order, at any time.
@@ -265,7 +280,8 @@ pub(crate) struct StatespaceAnswer {
 }
 
 /// Rounds of a system.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct RoundsRow {
     /// Markings between two rounds.
     pub(crate) states: String,
@@ -274,14 +290,16 @@ pub(crate) struct RoundsRow {
 }
 
 /// The figures of a search.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ExploredRow {
     pub(crate) states: String,
     pub(crate) arcs: String,
 }
 
 /// How tokens grow without end.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct GrowthRow {
     /// Transitions fired at first.
     pub(crate) first: Vec<String>,
@@ -290,9 +308,10 @@ pub(crate) struct GrowthRow {
 }
 
 /// The answer of `cotama verify`.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct VerifyAnswer {
-    #[schemars(extend("const" = "cotama/verify/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/verify/1")))]
     pub(crate) schema: &'static str,
     /// Whether the certificate shows its verdict.
     pub(crate) verified: bool,

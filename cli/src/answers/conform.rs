@@ -1,12 +1,14 @@
 //! The answer of `cotama conform`.
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The answer of `cotama conform`.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ConformAnswer {
-    #[schemars(extend("const" = "cotama/conform/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/conform/1")))]
     pub(crate) schema: &'static str,
     /// Name of the net or system on the command line.
     pub(crate) model: String,
@@ -34,7 +36,8 @@ pub(crate) struct ConformAnswer {
 }
 
 /// The departure of a recording from a model.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct DepartsRow {
     /// The line of the file, from 1.
     pub(crate) line: u64,
@@ -46,7 +49,8 @@ pub(crate) struct DepartsRow {
 }
 
 /// The records allowed.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct AllowedRow {
     /// The transitions that could fire, or had to.
     pub(crate) fired: Vec<MayFireRow>,
@@ -55,7 +59,8 @@ pub(crate) struct AllowedRow {
 }
 
 /// A transition that could fire.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct MayFireRow {
     pub(crate) transition: String,
     pub(crate) earliest_ms: u64,
@@ -64,7 +69,8 @@ pub(crate) struct MayFireRow {
 }
 
 /// An event that would have been used.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct MayTellRow {
     pub(crate) event: String,
     /// The transition that it would have made fire.

@@ -2,13 +2,15 @@
 
 use crate::exit::Failure;
 use crate::file_errors::FileError;
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Why a command cannot do its work, with `--json`. The exit code is 2.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ErrorAnswer {
-    #[schemars(extend("const" = "cotama/error/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/error/1")))]
     pub(crate) schema: &'static str,
     /// Cause of the error.
     pub(crate) message: String,
@@ -33,7 +35,8 @@ pub(crate) struct ErrorAnswer {
 }
 
 /// A further error of the same file.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ErrorRow {
     /// Cause of the error.
     pub(crate) message: String,

@@ -3,13 +3,15 @@
 use super::campaign::Measured;
 use super::check::{FiringRow, RestRow, VerdictName};
 use crate::args::Semantics;
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The answer of `cotama estimate`.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct EstimateAnswer {
-    #[schemars(extend("const" = "cotama/estimate/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/estimate/1")))]
     pub(crate) schema: &'static str,
     /// The name or path of the model.
     pub(crate) model: String,
@@ -31,7 +33,8 @@ pub(crate) struct EstimateAnswer {
 }
 
 /// The estimate of a property.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct EstimateRow {
     /// As on the command line.
     pub(crate) property: String,

@@ -1,12 +1,14 @@
 //! The answer of `cotama floor`.
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The answer of `cotama floor`.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct FloorAnswer {
-    #[schemars(extend("const" = "cotama/floor/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/floor/1")))]
     pub(crate) schema: &'static str,
     /// Name of the floor.
     pub(crate) name: String,
@@ -25,7 +27,8 @@ pub(crate) struct FloorAnswer {
 }
 
 /// The parts of a drawing.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Drawn {
     /// How many walls there are.
     pub(crate) walls: usize,
@@ -43,14 +46,16 @@ pub(crate) struct Drawn {
 }
 
 /// A door.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct DoorRow {
     pub(crate) name: String,
     pub(crate) open: bool,
 }
 
 /// A place.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct PlaceRow {
     pub(crate) name: String,
     pub(crate) x_mm: i32,
@@ -60,7 +65,8 @@ pub(crate) struct PlaceRow {
 }
 
 /// The cells of a map.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Mapped {
     pub(crate) columns: usize,
     pub(crate) rows: usize,
@@ -72,7 +78,8 @@ pub(crate) struct Mapped {
 }
 
 /// A path.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct PathRow {
     pub(crate) from: String,
     pub(crate) to: String,
@@ -86,7 +93,8 @@ pub(crate) struct PathRow {
 }
 
 /// A zone on a path.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct SpanRow {
     pub(crate) zone: String,
     pub(crate) x_start_mm: u64,

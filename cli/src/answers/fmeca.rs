@@ -1,13 +1,15 @@
 //! The answer of `cotama fmeca`.
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The failure modes of an analysis, what reacts to them, how critical they are, and which of them
 /// look alike. Without a file it is that of the robot `p3dx-delivery`.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct FmecaAnswer<'a> {
-    #[schemars(extend("const" = "cotama/fmeca/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/fmeca/1")))]
     pub(crate) schema: &'static str,
     /// Subject of the analysis.
     pub(crate) title: &'a str,
@@ -23,7 +25,8 @@ pub(crate) struct FmecaAnswer<'a> {
 
 /// How many failure modes are seen and answered; every one of them is in `detected`, in
 /// `undetectable` or in `unexplained`.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct CountsRow {
     pub(crate) rows: usize,
     pub(crate) functions: usize,
@@ -40,7 +43,8 @@ pub(crate) struct CountsRow {
 }
 
 /// A failure mode.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct FmecaRow<'a> {
     pub(crate) id: &'a str,
     /// The function that suffers.
@@ -102,7 +106,8 @@ pub(crate) struct FmecaRow<'a> {
 
 /// How critical a failure mode is: ranks with their product, and its field of the criticality
 /// matrix.
-#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct CriticalityRow {
     /// From 1 to 10; of the worse severity.
     pub(crate) severity: u8,
@@ -142,21 +147,24 @@ pub(crate) struct MeasuredRow {
 }
 
 /// A cause-effect diagram: what takes a function away.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct DiagramRow<'a> {
     pub(crate) function: &'a str,
     pub(crate) ribs: Vec<RibRow<'a>>,
 }
 
 /// The failure modes of one component, for one function.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct RibRow<'a> {
     pub(crate) component: &'a str,
     pub(crate) modes: Vec<&'a str>,
 }
 
 /// Which failure modes cannot be told apart, and what would help.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Diagnosability<'a> {
     /// The sound robot, then each single loss that leaves it running.
     pub(crate) statuses: Vec<StatusRow<'a>>,
@@ -165,7 +173,8 @@ pub(crate) struct Diagnosability<'a> {
 }
 
 /// The diagnosability in one status of the robot.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct StatusRow<'a> {
     /// As `sonar lost`; of a file there is one, `sound`.
     pub(crate) status: String,
@@ -194,7 +203,8 @@ pub(crate) struct StatusRow<'a> {
 }
 
 /// A failure mode that is not detected.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct UndetectableRow<'a> {
     pub(crate) id: &'a str,
     /// Whether the FMECA declares it so; otherwise its observers are unavailable.
@@ -203,7 +213,8 @@ pub(crate) struct UndetectableRow<'a> {
 }
 
 /// Failure modes with flags in common.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct GroupRow<'a> {
     pub(crate) modes: Vec<&'a str>,
     /// The flags with which all of them are possible.
@@ -213,7 +224,8 @@ pub(crate) struct GroupRow<'a> {
 }
 
 /// Two failure modes with flags in common.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct PairRow<'a> {
     #[serde(flatten)]
     pub(crate) shared: GroupRow<'a>,
@@ -222,7 +234,8 @@ pub(crate) struct PairRow<'a> {
 }
 
 /// An observation that could be added.
-#[derive(Clone, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ProbeRow<'a> {
     pub(crate) name: &'a str,
     /// Observer and observation, in words.
@@ -232,9 +245,10 @@ pub(crate) struct ProbeRow<'a> {
 }
 
 /// Detection of the failures of a robot in the plane by its signals, one run a seed.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct MeasureAnswer {
-    #[schemars(extend("const" = "cotama/measure/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/measure/1")))]
     pub(crate) schema: &'static str,
     pub(crate) mission: String,
     pub(crate) robot: String,
@@ -251,7 +265,8 @@ pub(crate) struct MeasureAnswer {
 }
 
 /// The detection of a failure.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct MeasureRow {
     pub(crate) id: String,
     pub(crate) failure: String,
@@ -294,7 +309,8 @@ pub(crate) struct RateRow {
 }
 
 /// Rows of the FMECA that explain flags, and how often.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct TakenRow {
     pub(crate) rows: Vec<String>,
     pub(crate) runs: u64,

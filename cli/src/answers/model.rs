@@ -1,19 +1,23 @@
 //! The answers of the commands about models.
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
+#[cfg(test)]
 use std::collections::BTreeMap;
 
 /// The answer of `cotama models`.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ModelsAnswer {
-    #[schemars(extend("const" = "cotama/models/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/models/1")))]
     pub(crate) schema: &'static str,
     pub(crate) models: Vec<ModelRow>,
 }
 
 /// A model.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ModelRow {
     /// Name for other commands; of a family without its number.
     pub(crate) name: String,
@@ -45,7 +49,8 @@ pub(crate) struct ModelRow {
 }
 
 /// The kind of a model.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ModelKind {
     /// One net.
@@ -57,7 +62,8 @@ pub(crate) enum ModelKind {
 }
 
 /// A law claimed of a net.
-#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct LawRow {
     /// As `never_both(Closing, obstacle)`.
     pub(crate) law: String,
@@ -65,7 +71,8 @@ pub(crate) struct LawRow {
 }
 
 /// How a law is shown.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Shown {
     /// In all reachable markings, while this program was compiled.
@@ -77,7 +84,8 @@ pub(crate) enum Shown {
 }
 
 /// An event or an output.
-#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct SignalRow {
     pub(crate) name: String,
     /// Meaning of the signal.
@@ -85,14 +93,16 @@ pub(crate) struct SignalRow {
 }
 
 /// The numbers of a family.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct NumbersRow {
     pub(crate) least: u32,
     pub(crate) most: u32,
 }
 
 /// A net of a system.
-#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ComponentRow {
     /// Name of the net in the system.
     pub(crate) name: String,
@@ -101,9 +111,10 @@ pub(crate) struct ComponentRow {
 }
 
 /// The answer of `cotama simulate`.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct SimulateAnswer {
-    #[schemars(extend("const" = "cotama/simulate/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/simulate/1")))]
     pub(crate) schema: &'static str,
     /// The name of the net or system.
     pub(crate) model: String,
@@ -123,7 +134,7 @@ pub(crate) struct SimulateAnswer {
     pub(crate) steps: Vec<StepRow>,
     /// The tokens of each place at the end, in the order of the net.
     #[serde(serialize_with = "as_object")]
-    #[schemars(with = "BTreeMap<String, u32>")]
+    #[cfg_attr(test, schemars(with = "BTreeMap<String, u32>"))]
     pub(crate) marking: Vec<(String, u32)>,
     /// The events that a transition would use at the end.
     pub(crate) enabled: Vec<EnabledRow>,
@@ -134,7 +145,8 @@ pub(crate) struct SimulateAnswer {
 }
 
 /// Something that happened: an event with what settled after it, what fired by itself, or a round.
-#[derive(Clone, Debug, Default, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct StepRow {
     pub(crate) time_ms: u64,
     /// The events that were offered; none for what fired by itself.
@@ -153,7 +165,8 @@ pub(crate) struct StepRow {
 }
 
 /// An event that no transition uses.
-#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct RefusalRow {
     pub(crate) event: String,
     pub(crate) reason: RefusalReason,
@@ -162,7 +175,8 @@ pub(crate) struct RefusalRow {
 }
 
 /// Why no transition uses an event.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum RefusalReason {
     /// A marked place ignores it on purpose.
@@ -178,21 +192,24 @@ pub(crate) enum RefusalReason {
 }
 
 /// The tokens of a place.
-#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct TokensRow {
     pub(crate) place: String,
     pub(crate) tokens: u32,
 }
 
 /// An event that a transition would use.
-#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct EnabledRow {
     pub(crate) event: String,
     pub(crate) transition: String,
 }
 
 /// The next event by itself.
-#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct DeadlineRow {
     pub(crate) time_ms: u64,
     pub(crate) transition: String,

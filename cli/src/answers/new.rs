@@ -1,12 +1,14 @@
 //! The answer of `cotama new`.
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The answer of `cotama new`.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct NewAnswer {
-    #[schemars(extend("const" = "cotama/new/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/new/1")))]
     pub(crate) schema: &'static str,
     /// The files that were written.
     pub(crate) files: Vec<String>,

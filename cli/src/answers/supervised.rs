@@ -1,11 +1,13 @@
 //! The answer for a supervised run: from each failure to the reaction. Failures are counted from 1,
 //! in the order of `failures`.
 
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The actions of the supervisors.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Supervised {
     /// The story in numbered points.
     pub(crate) points: Vec<Point>,
@@ -21,7 +23,8 @@ pub(crate) struct Supervised {
 
 /// A point of the story: the start, a failure, or what the operator does before the robot goes on
 /// alone.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Point {
     /// From 1.
     pub(crate) number: usize,
@@ -43,7 +46,8 @@ pub(crate) struct Point {
 }
 
 /// A transition that fired.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Fired {
     pub(crate) t_ms: u64,
     /// `gs`, `ls`, `pf`, `to`, `permit`, `gom` or `cs`.
@@ -56,7 +60,8 @@ pub(crate) struct Fired {
 }
 
 /// A failure and its consequences. Times are since the start.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Failure {
     /// The row of the FMECA.
     pub(crate) mode: String,
@@ -95,7 +100,8 @@ pub(crate) struct Failure {
 }
 
 /// A configuration.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Configured {
     pub(crate) t_ms: u64,
     /// Configuration; none when none runs.
@@ -105,7 +111,8 @@ pub(crate) struct Configured {
 }
 
 /// Something that the supervisors were told.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Told {
     /// The number of the round after which, from 1.
     pub(crate) round: u64,

@@ -1,14 +1,16 @@
 //! The answer of `cotama run` for teams.
 
 use super::{RecordDifference, RecordedFailure};
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// The answer of `cotama run` and `cotama replay` for teams.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct TeamAnswer {
-    #[schemars(extend("const" = "cotama/run-team/1"))]
+    #[cfg_attr(test, schemars(extend("const" = "cotama/run-team/1")))]
     pub(crate) schema: &'static str,
     /// The name of the team: `fleet`, `service`, or that of a file.
     pub(crate) scenario: String,
@@ -41,7 +43,8 @@ pub(crate) struct TeamAnswer {
 }
 
 /// One run.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct TeamRun {
     /// `optimal`, `rounds` or `one-by-one`.
     pub(crate) allocation: String,
@@ -78,7 +81,8 @@ pub(crate) struct TeamRun {
 }
 
 /// An award.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct AwardRow {
     pub(crate) t_ms: u64,
     pub(crate) round: u32,
@@ -91,7 +95,8 @@ pub(crate) struct AwardRow {
 }
 
 /// An error.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct TeamErrorRow {
     pub(crate) t_ms: u64,
     pub(crate) robot: String,
@@ -102,7 +107,8 @@ pub(crate) struct TeamErrorRow {
 }
 
 /// Many runs.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Compared {
     /// How many seeds were run with each allocation, from `seed` on.
     pub(crate) seeds: u64,
@@ -112,7 +118,8 @@ pub(crate) struct Compared {
 }
 
 /// All runs with an allocation.
-#[derive(Debug, JsonSchema, Serialize)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct ComparedRow {
     pub(crate) allocation: &'static str,
     /// Time of robots, with the utility of what is not done, a run.
@@ -130,7 +137,8 @@ pub(crate) struct ComparedRow {
 }
 
 /// A mean, and its interval.
-#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct Interval {
     pub(crate) mean: i64,
     pub(crate) low: i64,

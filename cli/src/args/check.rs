@@ -3,6 +3,7 @@
 use super::Json;
 use super::number::whole;
 use clap::{Args, ValueEnum};
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -212,7 +213,8 @@ pub(crate) struct VerifyArgs {
 }
 
 /// The meaning of a system of nets.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ValueEnum)]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Semantics {
     /// They act in any order, at any time: what never happens so never happens in rounds
