@@ -135,7 +135,8 @@ pub(crate) struct CriticalityRow {
 }
 
 /// How critical a failure mode is with the detection rank that runs have shown.
-#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct MeasuredRow {
     /// From 1 to 10: the decade of the longest delay where it was named in at least 95 % of the
     /// runs, 9 in fewer, 10 in none.
@@ -298,7 +299,8 @@ pub(crate) struct MeasureRow {
 }
 
 /// An interval of a probability (Clopper and Pearson) that holds the truth with 95 %.
-#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct RateRow {
     /// The least that is believed, in thousandths.
     #[serde(rename = "low_permille")]
