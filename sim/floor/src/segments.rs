@@ -121,7 +121,7 @@ impl Segments {
         if let Some(bad) = all.iter().position(|it| !is_good(it)) {
             return Err(SegmentsError::Segment(bad));
         }
-        let (cell, columns, rows) = cover::cells(&bounds, all.len());
+        let (cell, columns, rows) = cover::cells(&bounds);
         // A cell around all, so that what stands on the border is inside.
         let origin = bounds.least - Vector::repeat(cell);
         let cover = Cover::new(&all, origin, cell, columns, rows).ok_or(SegmentsError::Crowded)?;

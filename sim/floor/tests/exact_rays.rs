@@ -29,7 +29,7 @@ fn dot(a: Whole, b: Whole) -> i128 {
 }
 
 fn direction(random: &mut Random) -> Whole {
-    let angle = std::f64::consts::TAU * random.below(1 << 40) as f64 / (1_u64 << 40) as f64;
+    let angle = std::f64::consts::TAU * random.below(1 << 30) as f64 / f64::from(1 << 30);
     let scale = f64::from(1 << DIRECTION);
     [libm::cos(angle), libm::sin(angle)].map(|it| (it * scale).round() as i128)
 }

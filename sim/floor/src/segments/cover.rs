@@ -5,10 +5,8 @@ use crate::geometry::{Bounds, Point, Vector, crosses_box, distance_to};
 use crate::octants::Octants;
 use crate::surface::Sense;
 
-/// About so many cells for each stretch, within these bounds: with more, tables do not stay in the
-/// caches; with fewer, a cell has more than a stretch or two to look at.
-const EACH: f64 = 128.0;
-const CELLS: [f64; 2] = [16_384.0, 65_536.0];
+/// About so many cells.
+const CELLS: f64 = 65_536.0;
 /// The smallest cell, in metres.
 const SMALLEST: f64 = 0.05;
 /// A stretch belongs to a cell that it misses by so much, in metres: rays are rounded by less.
@@ -17,10 +15,9 @@ const MARGIN: f64 = 1e-6;
 pub(super) const MOST: usize = 1 << 21;
 
 /// Returns the side of a cell, and the columns and rows with one around.
-pub(super) fn cells(bounds: &Bounds, stretches: usize) -> (f64, usize, usize) {
+pub(super) fn cells(bounds: &Bounds) -> (f64, usize, usize) {
     let (width, height) = (bounds.width(), bounds.height());
-    let cells = (EACH * stretches as f64).clamp(CELLS[0], CELLS[1]);
-    let cell = (width * height / cells).sqrt().max(SMALLEST).max(width.max(height) / 16_384.0);
+    let cell = (width * height / CELLS).sqrt().max(SMALLEST).max(width.max(height) / 16_384.0);
     let count = |size: f64| (size / cell) as usize + 3;
     (cell, count(width), count(height))
 }
