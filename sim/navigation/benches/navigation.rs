@@ -1,8 +1,9 @@
 //! Ways, avoidance and guidance side by side, in the office.
 //!
 //! `cargo bench -p cotama-navigation --bench navigation [NAME]`: `ways`, `avoidance` or `guidance`
-//! measures that alone; with `--test` all run briefly. A time is the shortest of the rounds, so that
-//! what runs beside does not count; then the median and the longest of all questions or moments.
+//! measures that alone; with `--test` all run briefly. A time is the shortest of the rounds, so
+//! that what runs beside does not count; then the median and the longest of all questions or
+//! moments.
 //! Lengths and errors are the same on every machine.
 //!
 //! *Ways*: A* over cells of 5 cm and the lazy roadmap, between all pairs of places that both join.
@@ -230,7 +231,8 @@ fn guidance(course: &Course) {
         errors.sort_by(f64::total_cmp);
         let at = |part: usize| 1e3 * errors[part * (errors.len() - 1) / 100];
         println!(
-            "  {name:16} {:4.0} mm {:6.0} mm {mean:4.1} mm {time:6.1} s {none:5.1} % {command:8.2} µs",
+            "  {name:16} {:4.0} mm {:6.0} mm {mean:4.1} mm {time:6.1} s {none:5.1} % \
+             {command:8.2} µs",
             at(100),
             at(95),
         );
