@@ -106,6 +106,7 @@ fn case() -> impl Strategy<Value = Case> {
                     planner: Some(planner),
                     rigid: false,
                     fidelity: Fidelity::Line,
+                    measured: None,
                     people: 0,
                     upward: upward
                         .map(|(t, e, rt, re)| Upward { growth: [t, e], reserve: [rt, re] }),

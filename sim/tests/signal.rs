@@ -6,9 +6,9 @@ use cotama_core::units::{Millimetres, Millis};
 use cotama_floor::{Ground, Needs, embedded::OFFICE};
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Asked, Mission, embedded};
-use cotama_models::robots::{Moment, RobotFile};
+use cotama_models::robots::{Detection, Moment, RobotFile};
 use cotama_sim::options::{FaultChoice, Fidelity, Options};
-use cotama_sim::robots::{Driven, Measured, Run, Script};
+use cotama_sim::robots::{Driven, Run, Script};
 use cotama_sim::run::Outcome;
 use cotama_sim::story::{Point, points};
 use cotama_sim::trace::{Record, Trace, replay};
@@ -84,7 +84,7 @@ fn a_run_by_signals_is_run_again_from_its_trace_alone() {
     }
 }
 
-fn measured(id: &str) -> Measured {
+fn measured(id: &str) -> Detection {
     let driven = Driven::with(&ROUNDS, &options(0)).unwrap();
     driven.measure(row(id), Moment::Place(Millimetres(13_000)), 0..3).unwrap()
 }
@@ -146,10 +146,7 @@ fn the_seven_incidents_of_the_delivery_arise_by_signals_in_their_order() {
 #[test]
 fn a_sonar_at_its_largest_range_is_found_as_fast_as_its_way_lets_it() {
     let it = measured("SON1");
-    assert_eq!(
-        (it.delays, it.taken_for.get(&vec![row("SON1")]).copied()),
-        (vec![Millis(4_400); 3], Some(3))
-    );
+    assert_eq!((it.delays(), it.named(row("SON1"))), (vec![Millis(4_400); 3], 3));
 }
 
 #[test]

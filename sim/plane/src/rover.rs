@@ -42,9 +42,7 @@ pub struct Rover<'c> {
     /// The length along its path at which it turned back last.
     turned: f64,
     moved: bool,
-    touches: bool,
-    /// Whether it touched something in the last period.
-    is_pressed: bool,
+    contact: Contact,
     people: Option<People>,
     /// Things in its way that are on no map.
     things: Vec<Disc>,
@@ -56,6 +54,14 @@ pub struct Rover<'c> {
     steers: Option<Command>,
     /// The time since the start.
     now: Millis,
+}
+
+/// Contact of the robot with something: `Now` in the last period.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Contact {
+    Never,
+    Before,
+    Now,
 }
 
 /// A way that the robot drives beside its path: back along it, and forth again.
@@ -102,8 +108,7 @@ impl<'c> Rover<'c> {
             aside: Aside::No,
             turned: 0.0,
             moved: false,
-            touches: false,
-            is_pressed: false,
+            contact: Contact::Never,
             people,
             things: Vec::new(),
             belief: None,
@@ -173,12 +178,12 @@ impl<'c> Rover<'c> {
 
     /// Whether it ran against something.
     pub const fn touches(&self) -> bool {
-        self.touches
+        !matches!(self.contact, Contact::Never)
     }
 
     /// Whether it touched something in the last period.
     pub const fn is_pressed(&self) -> bool {
-        self.is_pressed
+        matches!(self.contact, Contact::Now)
     }
 
     /// Lets it believe that its odometry began at this pose: from now on it follows its path by
@@ -275,7 +280,9 @@ impl<'c> Rover<'c> {
     /// reached holds it.
     pub fn go(&mut self, towards: MillimetresPerSecond, end: Millimetres, time: Millis) {
         self.moved = false;
-        self.is_pressed = false;
+        if self.contact == Contact::Now {
+            self.contact = Contact::Before;
+        }
         self.now.0 += time.0;
         let towards = towards.0 as f64 / 1_000.0;
         self.see_doors();
@@ -323,8 +330,9 @@ impl<'c> Rover<'c> {
         let seen = Disc { radius: robot.radius + brakes, ..robot };
         for person in people.advance(now, &[seen]) {
             let gap = robot.gap(person);
-            self.is_pressed |= gap < 0.0;
-            self.touches |= self.is_pressed;
+            if gap < 0.0 {
+                self.contact = Contact::Now;
+            }
             // Ahead alone: a path may lead back over where it came from.
             let (near, aside) = track.find(person.centre, along, along + LOOKS);
             let is_ahead = near.along > along && gap < LOOKS;
@@ -366,13 +374,14 @@ impl<'c> Rover<'c> {
         let vehicle = (!self.things.is_empty()).then(|| self.vehicle.clone());
         let step = self.vehicle.step_under(drivetrain, surface, command, time, &effect);
         self.drive.took(&step, steps);
-        self.is_pressed |= self.vehicle.touches();
+        if self.vehicle.touches() {
+            self.contact = Contact::Now;
+        }
         if let Some(before) = vehicle.filter(|it| self.runs_into_a_thing(it)) {
             self.vehicle = before;
             self.vehicle.stand();
-            self.is_pressed = true;
+            self.contact = Contact::Now;
         }
-        self.touches |= self.is_pressed;
         self.moved |= *self.vehicle.pose() != before;
         if self.belief.is_some() {
             self.odometry.read(drivetrain, self.vehicle.counts(drivetrain));

@@ -53,7 +53,7 @@ const MOST_POINTS: usize = 1_000;
 /// The points of a robot with lasers.
 const MOST_SCANNED: usize = 6_000;
 /// The room that avoidance keeps beside the robot, in metres.
-const MARGIN_M: f64 = 0.05;
+const MARGIN_M: f64 = 0.1;
 /// By how much a pose may be wrong: paths have just the room that the robot needs.
 const ASIDE_M: f64 = 0.07;
 /// The way back from what the robot touches, in metres, at a speed in m/s, in so many periods.
