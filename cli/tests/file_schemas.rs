@@ -208,9 +208,11 @@ fn an_event_has_the_keys_that_the_reader_knows_for_its_kind() {
     let folder = Folder::new("file_schemas_events");
     let faults = schema("faults");
     let validator = validator("faults");
+    folder.write("rounds.toml", include_str!("../../sim/tests/common/rounds.toml"));
     let said = |text: &str| {
         folder.write("faults.toml", format!("format = \"panorama-faults/1\"\n{text}\n"));
-        folder.cotama(&["run", "delivery", "--no-report", "--faults", "faults.toml"]).stderr
+        let mission = if text.contains("door") { "rounds.toml" } else { "delivery" };
+        folder.cotama(&["run", mission, "--no-report", "--faults", "faults.toml"]).stderr
     };
     assert_eq!(keys(&faults), known(&said("nonsense = 1")));
     let point = "[[event]]\nx_mm = 1\n";
@@ -227,6 +229,7 @@ fn an_event_has_the_keys_that_the_reader_knows_for_its_kind() {
         (0, "[[event]]\nduring = \"Waits\"\n", "failure", "mode = \"SON1\""),
         (0, point, "failure", "mode = \"SON1\"\nuntil_during = \"Waits\""),
         (0, point, "operator", "answers = [\"give_up\"]\ndelay_ms = 0"),
+        (0, point, "door", "door = \"door B\"\nbecomes = \"closed\""),
         (1, random, "obstacle", "delay_ms = 3"),
         (1, random, "odometry", "extra_mm = 3"),
     ] {
@@ -237,7 +240,7 @@ fn an_event_has_the_keys_that_the_reader_knows_for_its_kind() {
         assert_eq!(wrong(&validator, &file(&text)), [""; 0], "{text}");
         // Each key that the reader knows is needed, and so it is by the schema.
         let known = known(&nonsense);
-        // A failure names its end if it likes, and its moment in one of three ways.
+        // A failure names its end if it likes; it and a door their moment in one of three ways.
         let is_needed = |it: &&String| {
             !it.starts_with("until_") && text.lines().any(|line| line.starts_with(it.as_str()))
         };

@@ -18,8 +18,8 @@ Examples:
   $ cotama fmeca --diagnosability
   $ cotama fmeca --measure delivery --seeds 5               # detected by signals, in the plane
   $ cotama fmeca --measure delivery --output measured.toml
-  $ cotama fmeca --measured measured.toml                   # RPN and AP by runs, beside the assumed
-  $ cotama fmeca --measured measured.toml --detections      # the runs again, as a table
+  $ cotama fmeca --measured p3dx-delivery                   # RPN and AP by runs, beside the assumed
+  $ cotama fmeca --measured p3dx-delivery --detections      # the runs again, as a table
   $ cotama fmeca --format csv | head -1
   $ cotama fmeca --output fmeca.html                        # the format by the name of the file
   $ cotama fmeca --function localise --output localise.svg

@@ -3,8 +3,8 @@
 
 /// The Action Priority of a failure mode (AIAG & VDA FMEA Handbook, 1st edition, 2019, table
 /// "Action Priority (AP) for DFMEA and PFMEA"). Neither the handbook nor SAE J1739:2021 was read:
-/// two public transcriptions of the table agree in every cell, and with eight rows of a published
-/// case (Pop et al., Applied Sciences 16(5):2591, 2026, as one of them quotes it).
+/// two public transcriptions of the table agree where they were read, and with eight rows of a
+/// published case (Pop et al., Applied Sciences 16(5):2591, 2026, as one of them quotes it).
 ///
 /// Ranks of severity, occurrence and detection go in as this analysis has them: the table is the
 /// handbook's, the scales of the ranks are [ours](super::Criticality).

@@ -110,7 +110,7 @@ const THING_STEPS: u32 = 50;
 /// Noise of ranges that read anything, in metres.
 const NOISY_M: f64 = 1.0;
 /// Loss of level of a weak link, in dB.
-const WEAKER_DB: f64 = 30.0;
+const WEAKER_DB: f64 = 45.0;
 /// The deviations of the pose at which a robot is put down or led to: 5 cm and 3°.
 const PUT: [f64; 3] = [0.05, 0.05, 0.05];
 
