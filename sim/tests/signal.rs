@@ -119,8 +119,8 @@ fn failures_of_devices_are_found_by_their_signals() {
     assert_eq!(found, expected);
 }
 
-/// Nothing but the flags of signals reaches the supervisors. The thing in the way shows itself as a
-/// lost wheel would, by a robot that stays off its path; contact may be that of drift or of a thing.
+/// Nothing but the flags of signals reaches the supervisors. The thing in the way shows itself as
+/// a lost wheel would, by a robot that stays off its path; contact is that of drift or of a thing.
 #[test]
 fn the_seven_incidents_of_the_delivery_arise_by_signals_in_their_order() {
     let delivery = embedded::mission("delivery").unwrap();

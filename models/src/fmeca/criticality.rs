@@ -244,10 +244,10 @@ fn latency_rank(latency_ms: u64) -> u8 {
 }
 
 /// The detection rank of a failure of a robot as runs have shown it, on the scale of those that are
-/// assumed: the decade of the longest delay where the failure is named in at least 95 % of the runs,
-/// 9 where it is named in fewer, and 10 where it never is. A failure that is taken for another one
-/// alone is not detected as what it is: what follows is the reaction to the other. `None` without a
-/// run.
+/// assumed: the decade of the longest delay where the failure is named in at least 95 % of the
+/// runs, 9 where it is named in fewer, and 10 where it never is. A failure that is taken for
+/// another one alone is not detected as what it is: what follows is the reaction to the other.
+/// `None` without a run.
 ///
 /// ```
 /// use cotama_core::units::Millis;

@@ -89,9 +89,9 @@ const SAME_M: f64 = 0.000_1;
 /// An observer of sensors that read the same range again and again, as those that are stuck do.
 ///
 /// *Assumption.* Each reading has a normal error of deviation σ of its own, so that two of a thing
-/// that stands differ by a normal one of σ√2: they are the same within d, a tenth of a millimetre, with at most
-/// the chance d / (σ √π). *Threshold.* So many in a row as the promise asks for. A least
-/// or largest range is not one that is stuck.
+/// that stands differ by a normal one of σ√2: they are the same within d, a tenth of a millimetre,
+/// with at most the chance d / (σ √π). *Threshold.* So many in a row as the promise asks for. A
+/// least or largest range is not one that is stuck.
 ///
 /// ```
 /// use cotama_core::units::Millis;

@@ -95,8 +95,8 @@ pub struct Run {
     pub fired: BTreeSet<String>,
     /// Position at which it ran against something, in the plane, which ended it.
     pub touched: Option<Millimetres>,
-    /// The drive, by its number, to whose goal nothing leads any more, and the door in its way: they
-    /// ended it.
+    /// The drive, by its number, to whose goal nothing leads any more, and the door in its way:
+    /// they ended it.
     pub blocked: Option<(usize, usize)>,
     /// The property that it broke, which ended it.
     pub violated: Option<Violation>,

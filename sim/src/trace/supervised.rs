@@ -163,8 +163,8 @@ impl Autonomy {
     }
 }
 
-/// The module status vector has changed (Durand et al., TAROS 2010, Section V.A.3): what is known to
-/// be lost, and the modules that do not work without it.
+/// The module status vector has changed (Durand et al., TAROS 2010, Section V.A.3): what is known
+/// to be lost, and the modules that do not work without it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Status {
     /// When, in µs.

@@ -23,7 +23,8 @@ impl Measurement {
     /// let robot = Robot::shipped("p3dx-delivery").unwrap();
     /// let text = "format = 'cotama-measurement/1'\nrobot = 'p3dx-delivery'\nmission = 'delivery'
     /// seeds = 2\nx_mm = 9000\nwindow_ms = 120000
-    /// [[failure]]\nid = 'SON1'\nruns = 2\nmissed = 1\ntaken = [{ for = ['SNO1'], delays_ms = [5] }]";
+    /// [[failure]]\nid = 'SON1'\nruns = 2\nmissed = 1\n\
+    /// taken = [{ for = ['SNO1'], delays_ms = [5] }]";
     /// let errors = Measurement::parse("it.toml", text, &robot).unwrap_err().to_string();
     /// let first = "it.toml:11:18: unknown failure `SNO1`; did you mean `SON1`?";
     /// assert_eq!(errors.lines().next(), Some(first));

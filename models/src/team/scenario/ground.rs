@@ -129,7 +129,8 @@ pub struct Ways {
     pub asked: Asked,
     /// The problem of the doors, if there is one.
     pub doors: Result<(), Refusal>,
-    /// The position of each place of [`Asked::places`], in mm from the left lower corner of the floor.
+    /// The position of each place of [`Asked::places`], in mm from the left lower corner of the
+    /// floor.
     pub places: Vec<Result<[i32; 2], Refusal>>,
     /// The way of each pair of [`Asked::pairs`].
     pub legs: Vec<Result<Leg, NoLeg>>,

@@ -116,7 +116,8 @@ impl Drawn {
         Self { robots, tasks, ways, side, radius: LEAST.max(RADIUS_M * pixels.scale) }
     }
 
-    /// Draws all that lies over the floor: ways, robots at their start, tasks where they are at first.
+    /// Draws all that lies over the floor: ways, robots at their start, tasks where they are at
+    /// first.
     fn over(&self, trace: &Trace, scenario: &Scenario, letters: &[String]) -> String {
         let mut over = String::from("<g class=\"ways\">");
         for way in &self.ways {
@@ -183,7 +184,8 @@ impl Drawn {
     }
 }
 
-/// Returns the doings of a robot as JSON: from when, the class of its colour, and words; nothing between bars.
+/// Returns the doings of a robot as JSON: from when, the class of its colour, and words; nothing
+/// between bars.
 fn doings(bars: &[Bar]) -> String {
     let (mut rows, mut end) = (vec!["[0,\"\",\"\"]".to_owned()], 0);
     for it in bars {
