@@ -93,9 +93,17 @@ fn a_line_finds_failures_as_often_and_as_late_as_the_signals_that_were_measured(
 fn the_measured_robot_that_comes_with_the_program_is_drawn_from_as_it_is() {
     let file = embedded_measurement("p3dx-delivery").unwrap();
     let shipped = Measurement::parse(file.name, file.text, robot()).unwrap();
-    let rows: Vec<_> = shipped.rows.keys().copied().collect();
     let told = on_the_line(shipped.clone(), Fidelity::Line);
-    assert_alike(&shipped.rows, &detections(&told, &rows, 40));
+    // What is over before it is found is not found on a line: one late job (RT2) alone.
+    let is_over = |row: usize, it: &Detection| robot().failures[row].ends <= it.median();
+    let (over, rest): (BTreeMap<_, _>, BTreeMap<_, _>) = shipped
+        .rows
+        .into_iter()
+        .partition(|(row, it)| robot().failures[*row].ends.is_some() && is_over(*row, it));
+    let over: Vec<_> = over.keys().map(|it| robot().failures[*it].id.as_str()).collect();
+    assert_eq!(over, ["RT2"]);
+    let rows: Vec<_> = rest.keys().copied().collect();
+    assert_alike(&rest, &detections(&told, &rows, 40));
 }
 
 #[test]
