@@ -26,7 +26,7 @@ impl Measurement {
     /// [[failure]]\nid = 'SON1'\nruns = 2\nmissed = 1\n\
     /// taken = [{ for = ['SNO1'], delays_ms = [5] }]";
     /// let errors = Measurement::parse("it.toml", text, &robot).unwrap_err().to_string();
-    /// let first = "it.toml:11:18: unknown failure `SNO1`; did you mean `SON1`?";
+    /// let first = "it.toml:11:19: unknown failure `SNO1`; did you mean `SON1`?";
     /// assert_eq!(errors.lines().next(), Some(first));
     /// ```
     pub fn parse(source_name: &str, text: &str, robot: &Robot) -> Result<Self, MissionErrors> {
