@@ -39,7 +39,7 @@ pub struct Mount {
 pub struct LaserScanner {
     /// The number of its hardware.
     pub hardware: usize,
-    /// Its place.
+    /// The place.
     pub mount: Mount,
     /// The angle from its first ray to the last, in degrees.
     pub view_deg: u16,
@@ -58,7 +58,7 @@ pub struct LaserScanner {
 pub struct MarkCamera {
     /// The number of its hardware.
     pub hardware: usize,
-    /// Its place.
+    /// The place.
     pub mount: Mount,
     /// The angle from one side of the picture to the other, in degrees.
     pub view_deg: u16,

@@ -11,7 +11,7 @@ use nalgebra::Isometry2;
 /// Two estimates of the turn at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turn {
-    /// How fast the robot turns by its gyro, in rad/s to the left.
+    /// The turn of the robot by its gyro, in rad/s to the left.
     pub gyro: f64,
     /// The pose by the encoders.
     pub odometry: Isometry2<f64>,

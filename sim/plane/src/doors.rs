@@ -6,7 +6,7 @@ use cotama_devices::Disc;
 use cotama_floor::{Floor, Held, Needs, Planner, Point, Version};
 use cotama_models::missions::Leg;
 
-/// How far ahead along its path a robot sees a leaf, in metres.
+/// The way ahead along its path on which a robot sees a leaf, in metres.
 const SIGHT: f64 = 4.0;
 /// The room that a leaf leaves beside a robot that brakes, in metres.
 const ROOM: f64 = 0.1;

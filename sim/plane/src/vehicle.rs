@@ -65,7 +65,7 @@ pub struct Step {
 pub struct Vehicle {
     pose: Pose,
     now: Command,
-    /// How fast it turned at last, which slip makes other than it was told.
+    /// The turn at last, which slip makes other than it was told.
     turns: f64,
     /// The angles of the wheels that the encoders have counted, left and right.
     wheels: [f64; 2],

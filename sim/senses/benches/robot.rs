@@ -97,7 +97,7 @@ fn observers() -> Vec<Box<dyn Observer>> {
     all
 }
 
-/// Where the robot was at the end of a trip, and how often it was located.
+/// The end of a trip: the pose there, and how often the robot was located.
 struct End {
     periods: usize,
     updates: usize,

@@ -1,4 +1,4 @@
-//! What is around a robot, and how it keeps away from it.
+//! Things around a robot, and orders that keep it away from them.
 
 use crate::devices::Devices;
 use crate::sonars::{RANGE_M, ring};
@@ -20,9 +20,9 @@ pub(crate) struct Order {
 pub(crate) enum Wants {
     /// The operator leads it.
     Led,
-    /// It keeps away from things.
+    /// Keeps away from things.
     Avoids,
-    /// It goes along its path.
+    /// Goes along its path.
     Goes,
 }
 

@@ -69,7 +69,7 @@ pub enum Record {
         from: usize,
         /// The next place.
         to: usize,
-        /// How far it has come, in mm.
+        /// The way that it has come, in mm.
         done_mm: u64,
     },
     /// A robot fails.

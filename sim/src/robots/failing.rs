@@ -16,7 +16,7 @@ pub(crate) struct Failure {
     /// For how long observers have been able to see it, and for how long it was to be seen.
     seen: Millis,
     shown: Millis,
-    /// Its detection, where that is drawn from measured ones.
+    /// The detection, where that is drawn from measured ones.
     drawn: Option<Drawn>,
     /// Whether its flags are up.
     pub(crate) found: bool,

@@ -1,10 +1,10 @@
-//! How a mission was run, as its trace keeps it.
+//! Options of a run of a mission, as its trace keeps them.
 
 use super::{Used, pose};
 use crate::options::{Fidelity, Planner};
 use serde::{Deserialize, Serialize};
 
-/// How a mission was run.
+/// Options of a run of a mission.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RunOptions {
     /// The seed of all random numbers.

@@ -44,7 +44,7 @@ pub(super) struct Change {
 /// in pixels.
 const BESIDE: f64 = 20.0;
 const APART: f64 = 2.0;
-/// How many stand beside each other.
+/// The number that stand beside each other.
 const ROW: usize = 3;
 
 /// Returns the places where a task begins and ends.

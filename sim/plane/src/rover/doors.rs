@@ -29,7 +29,7 @@ pub enum Met {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Halts {
     No,
-    /// It stops to look for another path.
+    /// Stops to look for another path.
     Before(usize),
     /// There is none.
     ForGood,
