@@ -22,6 +22,12 @@ impl<'t> Fields<'t> {
         let _ = self.optional(key);
     }
 
+    /// Whether a key stands here that nothing has asked for: the misspelt name of one that has.
+    pub(crate) fn has_unknown(&self) -> bool {
+        let mut keys = self.entries.keys().map(|it| it.get_ref().as_ref());
+        keys.any(|it| !self.asked.contains(&it) && !super::DOCUMENTATION.contains(&it))
+    }
+
     /// The digits of a number, with or without decimals, that may be left out.
     pub(crate) fn optional_number(
         &mut self,

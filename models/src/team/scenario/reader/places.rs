@@ -212,7 +212,8 @@ fn way(
     } else {
         fields.knows("length_mm");
         let planned = leg.and_then(|it| it.as_ref().ok()).map(|it| it.length.0);
-        if ways.is_none() {
+        // A misspelt `length_mm` is one error, not two.
+        if ways.is_none() && !fields.has_unknown() {
             let span = fields.span_of("between");
             let message = "the length of this way is that of a path over a floor that is not here";
             let help = "say its `length_mm`, or read the file where its floor is";
