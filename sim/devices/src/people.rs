@@ -5,18 +5,21 @@ use crate::scene::Disc;
 use crate::settings::{SettingsError, within};
 use core::ops::RangeInclusive;
 use cotama_core::units::Millis;
-use cotama_floor::{Path, Point, Vector};
+use cotama_floor::{Path, Point};
 use cotama_streams::{Stream, Streams};
 use std::sync::Arc;
+
+mod around;
+
+use around::{Around, beside, is_hindered};
 
 /// The time between two decisions of a person.
 pub const STEP: Millis = Millis(100);
 /// The most decisions of a person that are made at once: those of 29 hours. People of whom nobody
 /// asked for longer go on from where they were.
 const MAX_STEPS: u64 = 1 << 20;
-/// A person who was hindered so often squeezes past the robot, with this room in metres.
+/// A person who was hindered so often squeezes past the robot.
 const TRIES: u8 = 3;
-const SQUEEZE: f64 = 0.05;
 /// The most people.
 pub const MAX_PEOPLE: usize = 1_000;
 
@@ -92,6 +95,7 @@ impl Habits {
 pub struct People {
     all: Vec<Person>,
     discs: Vec<Disc>,
+    leaves: Vec<[Point; 2]>,
     /// The time of the last decision.
     decided: Option<Millis>,
 }
@@ -199,7 +203,7 @@ impl People {
         let all: Vec<_> = (0..count).map(person).collect();
         let disc = |it: &Person| Disc { centre: it.from, radius: habits.radius_m };
         let discs = all.iter().map(disc).collect();
-        Ok(Self { all, discs, decided: None })
+        Ok(Self { all, discs, leaves: Vec::new(), decided: None })
     }
 
     /// Adds a person who walks a round, and is in its first place.
@@ -248,6 +252,12 @@ impl People {
         }
     }
 
+    /// Puts leaves of doors where the ways were planned without them, in place of those before: who
+    /// comes to one turns back.
+    pub fn set_leaves(&mut self, leaves: Vec<[Point; 2]>) {
+        self.leaves = leaves;
+    }
+
     /// Returns the people where they were at the last time that was asked for.
     pub fn now(&self) -> &[Disc] {
         &self.discs
@@ -262,7 +272,7 @@ impl People {
             let now = Millis(step * STEP.0);
             for person in &mut self.all {
                 let goes = person.goes.clone();
-                person.decide(now, &goes, robots);
+                person.decide(now, &goes, Around { robots, leaves: &self.leaves });
             }
             self.decided = Some(now);
         }
@@ -277,19 +287,19 @@ impl People {
 
 impl Person {
     /// Decides at a time where to be a step later.
-    fn decide(&mut self, now: Millis, goes: &Goes, robots: &[Disc]) {
-        let Goes { habits, routes, .. } = goes;
+    fn decide(&mut self, now: Millis, goes: &Goes, around: Around<'_>) {
+        let (Goes { habits, routes, .. }, robots) = (goes, around.robots);
         self.from = self.to;
         let here = Disc { centre: self.from, radius: habits.radius_m };
         let is_close = robots.iter().any(|it| it.gap(&here) < habits.gap_m);
         if let Doing::Walks { walk, stands: None } = self.doing {
-            self.walk_on(walk, now, habits, routes, robots);
+            self.walk_on(walk, now, goes, around);
             return;
         }
         let is_patient = self.is_patient(is_close, now, habits);
         match self.doing {
             Doing::Stays { place, until } if until <= now || !is_patient => {
-                self.set_off(place, now, goes, robots);
+                self.set_off(place, now, goes, around);
             }
             Doing::Walks { mut walk, stands: Some(until) } if until <= now || !is_patient => {
                 self.hindered = None;
@@ -297,7 +307,7 @@ impl Person {
                 if !is_patient && next.is_some_and(|to| is_hindered(here, to, habits, robots)) {
                     walk.turn_back(routes);
                 }
-                self.walk_on(walk, now, habits, routes, robots);
+                self.walk_on(walk, now, goes, around);
             }
             _ => {}
         }
@@ -311,7 +321,7 @@ impl Person {
     }
 
     /// Leaves a place for another that is drawn; stays on where no way begins.
-    fn set_off(&mut self, place: usize, now: Millis, goes: &Goes, robots: &[Disc]) {
+    fn set_off(&mut self, place: usize, now: Millis, goes: &Goes, around: Around<'_>) {
         let Goes { habits, routes, .. } = goes;
         self.hindered = None;
         let to = goes.next(place, &mut self.chance);
@@ -325,21 +335,25 @@ impl Person {
         };
         let stop = stops.then(|| after * way.length());
         let walk = Walk { from: place, to, along: 0.0, speed, stop };
-        self.walk_on(walk, now, habits, routes, robots);
+        self.walk_on(walk, now, goes, around);
     }
 
     /// Takes a step of a walk, or waits for the robot that is in the way, or turns back.
-    fn walk_on(
-        &mut self,
-        mut walk: Walk,
-        now: Millis,
-        habits: &Habits,
-        routes: &Routes,
-        robots: &[Disc],
-    ) {
+    fn walk_on(&mut self, mut walk: Walk, now: Millis, goes: &Goes, around: Around<'_>) {
+        let (Goes { habits, routes, .. }, robots) = (goes, around.robots);
         let Some(way) = routes.way(walk.from, walk.to) else { return };
         let here = Disc { centre: self.from, radius: habits.radius_m };
         let (along, to) = walk.next(way);
+        if around.bars(here, to) {
+            self.doing = if walk.along > 0.0 {
+                walk.turn_back(routes);
+                Doing::Walks { walk, stands: None }
+            } else {
+                let until = after_step(now, time(&mut self.chance, &habits.stays));
+                Doing::Stays { place: walk.from, until }
+            };
+            return;
+        }
         let hinders = is_hindered(here, to, habits, robots);
         if !self.is_patient(hinders, now, habits) {
             self.hindered = None;
@@ -389,26 +403,6 @@ impl Walk {
         let along = (length - self.along).max(0.0);
         *self = Self { from: self.to, to: self.from, along, speed: self.speed, stop: None };
     }
-}
-
-/// Returns the point beside a robot that is nearest to one which is too close to it.
-fn beside(robot: &Disc, to: Point, radius_m: f64) -> Point {
-    let (away, least) = (to - robot.centre, robot.radius + radius_m + SQUEEZE);
-    let distance = away.norm();
-    if distance >= least {
-        return to;
-    }
-    if distance > 0.0 {
-        robot.centre + away * (least / distance)
-    } else {
-        robot.centre + Vector::new(least, 0.0)
-    }
-}
-
-/// Whether a step ends closer to a robot than the gap, and does not lead away from it.
-fn is_hindered(here: Disc, to: Point, habits: &Habits, robots: &[Disc]) -> bool {
-    let there = Disc { centre: to, ..here };
-    robots.iter().any(|it| it.gap(&there) < habits.gap_m && it.gap(&there) <= it.gap(&here))
 }
 
 /// Returns the end of a time that begins with the end of a step.

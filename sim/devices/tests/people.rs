@@ -116,3 +116,20 @@ fn people_are_in_the_same_places_however_often_they_are_asked() {
     assert_eq!(often.advance(end, &[]), once.advance(end, &[]));
     assert_eq!(once.advance(end, &[]), &more.advance(end, &[])[..8]);
 }
+
+#[test]
+fn who_comes_to_a_door_that_has_closed_turns_back() {
+    let mut people = walker();
+    let leaf = [[10.0, -1.0], [10.0, 1.0]].map(Point::from);
+    let mut at = |ms, leaves: Vec<[Point; 2]>| {
+        people.set_leaves(leaves);
+        people.advance(Millis(ms), &[])[0].centre.x
+    };
+    let closed: Vec<f64> = (0..600).map(|it| at(it * 100, vec![leaf])).collect();
+    let nearest = closed.iter().map(|it| (it - 10.0).abs()).fold(f64::MAX, f64::min);
+    assert!((0.25..0.5).contains(&nearest), "{nearest}");
+    let is_left = |it: &f64| *it < 10.0;
+    assert!(closed.iter().all(|it| is_left(it) == is_left(&closed[0])));
+    let open: Vec<f64> = (600..1_200).map(|it| at(it * 100, Vec::new())).collect();
+    assert!(open.contains(&0.0) && open.contains(&20.0));
+}

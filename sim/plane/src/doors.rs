@@ -20,6 +20,8 @@ const ROUNDED: f64 = 0.005;
 pub(crate) struct Doors {
     real: Floor,
     known: Floor,
+    /// Whether each is open as the mission has it.
+    planned: Vec<bool>,
     /// Doors that wait until the robot is out of their way, and whether they open.
     waiting: Vec<(usize, bool)>,
 }
@@ -30,7 +32,8 @@ impl Doors {
         let way = course.way();
         let floor = Floor::parse(&way.source, &way.text).ok()?;
         let floor = floor.with_doors(&way.asked.open, &way.asked.close).ok()?;
-        Some(Self { known: floor.clone(), real: floor, waiting: Vec::new() })
+        let planned = floor.doors.iter().map(|it| it.is_open).collect();
+        Some(Self { known: floor.clone(), real: floor, planned, waiting: Vec::new() })
     }
 
     /// Lets a door open or close as soon as its leaf does not come too near to the robot.
@@ -39,11 +42,14 @@ impl Doors {
         self.waiting.push((door, is_open));
     }
 
-    /// Opens and closes doors that leave room to a robot, which is as large as it needs to brake;
-    /// returns the floor if something changes.
-    pub(crate) fn change(&mut self, robot: &Disc) -> Option<Held> {
+    /// Opens and closes doors that leave room to a robot, which is as large as it needs to brake,
+    /// and to people; returns the floor if something changes.
+    pub(crate) fn change(&mut self, robot: &Disc, people: &[Disc]) -> Option<Held> {
         let is_far = |leaf: Option<[Point; 2]>| {
-            leaf.is_none_or(|it| distance(it, robot.centre) > robot.radius + ROOM)
+            leaf.is_none_or(|leaf| {
+                let room = |it: &Disc| distance(leaf, it.centre) - it.radius;
+                room(robot) > ROOM && people.iter().all(|it| room(it) > 0.0)
+            })
         };
         let (mut changed, doors) = (false, &mut self.real.doors);
         self.waiting.retain(|(door, is_open)| {
@@ -55,6 +61,12 @@ impl Doors {
             false
         });
         changed.then(|| drawn(&self.real, Version::Real)).flatten()
+    }
+
+    /// Returns the leaves of doors that stand otherwise than the mission has them.
+    pub(crate) fn moved(&self) -> Vec<[Point; 2]> {
+        let moved = self.real.doors.iter().zip(&self.planned).filter(|it| it.0.is_open != *it.1);
+        moved.filter_map(|it| it.0.leaf(it.0.is_open)).collect()
     }
 
     /// Returns the door that the robot sees to stand otherwise than it knows, in the way of a disc

@@ -67,7 +67,11 @@ impl Rover<'_> {
         let radius = self.course().drivetrain().footprint.radius();
         let brakes = self.braking_distance().0 as f64 / 1_000.0;
         let centre = self.pose().translation.vector.into();
-        if let Some(real) = doors.change(&Disc { centre, radius: radius + brakes }) {
+        let robot = Disc { centre, radius: radius + brakes };
+        if let Some(real) = doors.change(&robot, self.people()) {
+            if let Some(people) = &mut self.people {
+                people.set_leaves(doors.moved());
+            }
             let mut own = self.course().clone();
             own.stand_on(real);
             self.own = Some(Box::new(own));
