@@ -8,7 +8,7 @@ use cotama_sim::options::{FaultChoice, Fidelity, Options};
 use cotama_sim::robots::{Driven, Injection, Script};
 use cotama_sim::run::Outcome;
 use cotama_sim::story::points;
-use cotama_sim::trace::{Record, Trace, replay};
+use cotama_sim::trace::{PlanRow, Record, Trace, replay};
 
 fn mission(name: &str) -> Mission {
     let known = embedded::mission(name).unwrap();
@@ -51,6 +51,26 @@ fn the_delivery_in_the_plane_has_its_seven_points_and_decisions_in_their_order()
     assert_eq!(configurations(&line), configurations(&plane));
 }
 
+#[test]
+fn the_patrol_in_the_plane_has_the_plans_of_the_line_at_the_same_places() {
+    let patrol = supervised_patrol();
+    let row = |it: &PlanRow| (it.activity.clone(), it.choice.clone(), it.speed_mm_s);
+    let plans = |fidelity| -> Vec<_> {
+        let trace = record(&patrol, fidelity);
+        let all = trace.records.iter().filter_map(|it| match it {
+            Record::Plan(it) => {
+                let rows: Vec<_> = it.plan.iter().map(row).collect();
+                Some((it.x_mm / 1_000, it.cause.clone(), rows))
+            }
+            _ => None,
+        });
+        all.collect()
+    };
+    let [line, plane] = [Fidelity::Line, Fidelity::Plane].map(plans);
+    assert_eq!(line, plane);
+    assert_eq!(plane.iter().map(|it| it.0).collect::<Vec<_>>(), [0, 63, 118, 170]);
+}
+
 /// Braking before each goal; the robot of the shift is fast, and slows down before bends too.
 #[test]
 fn a_mission_in_the_plane_takes_longer_and_never_runs_against_anything() {
@@ -75,7 +95,7 @@ fn a_trace_in_the_plane_holds_poses_and_replays_to_the_record() {
     assert_eq!(read.header.floor.unwrap().source, "corridors");
     let count = |of: fn(&Record) -> bool| read.records.iter().filter(|it| of(it)).count();
     let poses = count(|it| matches!(it, Record::Pose(_)));
-    assert_eq!(poses, count(|it| matches!(it, Record::Sample(_))) - 8); // one at each plan
+    assert_eq!(poses, count(|it| matches!(it, Record::Sample(_))) - 4); // one at each plan
 }
 
 /// Whole numbers of a run of many thousand steps: the same in debug and release, and on 32 bits.

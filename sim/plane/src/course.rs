@@ -4,8 +4,10 @@ use crate::corridors;
 use crate::drivetrain::{Drivetrain, SPARE};
 use crate::people;
 use crate::track::{Near, Rest, Track};
+use cotama_core::units::Millimetres;
 use cotama_devices::{Habits, People, Routes, SettingsError, Streams, Walker};
 use cotama_floor::{Floor, Held, Needs, Planner, Point, Pose, Surface, metres};
+use cotama_models::missions::faults::EventKind;
 use cotama_models::missions::{Leg, Mission, Way};
 use std::fmt;
 
@@ -19,6 +21,8 @@ pub struct Course {
     drivetrain: Drivetrain,
     track: Track,
     back: Track,
+    /// How much longer the path is than the mission, in metres.
+    spare: f64,
     /// The people whom a seed draws, and those who walk as the mission says.
     drawn: Option<(usize, Routes)>,
     walkers: Vec<Walker>,
@@ -106,6 +110,15 @@ pub(crate) fn is_free(points: &[[i32; 2]], surface: &dyn Surface, drivetrain: &D
     })
 }
 
+/// Returns the way that wrong positions add, of the mission's own faults.
+fn wrong(mission: &Mission) -> Millimetres {
+    let extra = mission.run.faults.events.iter().map(|it| match it.kind {
+        EventKind::Odometry { extra } => extra.0,
+        _ => 0,
+    });
+    Millimetres(extra.fold(0, u64::saturating_add))
+}
+
 /// Whether a robot has little room at a point.
 fn is_tight(surface: &dyn Surface, drivetrain: &Drivetrain, at: Point) -> bool {
     let room = drivetrain.footprint.radius() + TIGHT;
@@ -114,7 +127,8 @@ fn is_tight(surface: &dyn Surface, drivetrain: &Drivetrain, at: Point) -> bool {
 
 impl Course {
     /// Returns the course of a mission. One that names no floor goes along
-    /// [corridors](corridors::along) as long as its path. So many people walk between the places of
+    /// [corridors](corridors::along) as long as its path, and as all that wrong positions of its own
+    /// faults add. So many people walk between the places of
     /// the floor, or as many as the mission says, beside those whom it names.
     ///
     /// # Errors
@@ -122,10 +136,15 @@ impl Course {
     pub fn of(mission: &Mission, people: usize) -> Result<Self, NoCourse> {
         let body = mission.robot().and_then(|it| it.robot().body.as_ref()).ok_or(NoCourse::Body)?;
         let drivetrain = Drivetrain::of(body);
-        let way = match &mission.way {
-            Some(it) => it.clone(),
-            None => corridors::along(mission.path_length).ok_or(NoCourse::Long)?,
+        let (way, spare) = match &mission.way {
+            Some(it) => (it.clone(), Millimetres(0)),
+            None => {
+                let spare = wrong(mission);
+                let length = Millimetres(mission.path_length.0.saturating_add(spare.0));
+                (corridors::along(length).ok_or(NoCourse::Long)?, spare)
+            }
         };
+        let spare = spare.0 as f64 / 1_000.0;
         let why = |it: String| NoCourse::Floor(it);
         let [real, charted] = Held::of(&way).map_err(why)?;
         let surface = real.surface();
@@ -139,7 +158,8 @@ impl Course {
         let of = &mission.people;
         let walkers = of.walkers.iter().map(people::walker).collect::<Result<_, _>>();
         let walkers = walkers.map_err(|it| NoCourse::People(it.to_string()))?;
-        let course = Self { way, real, charted, drivetrain, track, back, drawn: None, walkers };
+        let course =
+            Self { way, real, charted, drivetrain, track, back, spare, drawn: None, walkers };
         let people = if people == 0 { of.drawn } else { people };
         if people == 0 { Ok(course) } else { course.among(people) }
     }
@@ -214,6 +234,11 @@ impl Course {
     /// Returns the path.
     pub const fn track(&self) -> &Track {
         &self.track
+    }
+
+    /// Returns how much longer the path is than the mission, in metres.
+    pub(crate) const fn spare(&self) -> f64 {
+        self.spare
     }
 
     /// Lets the floor be another one.

@@ -31,6 +31,11 @@ impl Detours {
         Self { before, legs: legs.map(leg).collect() }
     }
 
+    /// Makes the path longer from a length of the mission and of the path on.
+    pub(crate) fn lengthen(&mut self, x: f64, along: f64, by: f64) {
+        self.legs.push(Longer { x, along, by });
+    }
+
     /// Whether the path is that of the mission.
     pub(crate) fn is_none(&self) -> bool {
         *self == Self::default()
@@ -74,5 +79,18 @@ mod tests {
         );
         assert_eq!([it.goal(6.0), it.goal(8.0)], [12.0, 14.0]);
         assert_eq!([it.owed(2.0, 2.0), it.owed(2.0, 7.5), it.owed(4.0, 10.0)], [6.0, 0.5, 0.0]);
+    }
+
+    #[test]
+    fn a_path_that_is_longer_is_owed_from_where_it_is() {
+        let mut it = Detours::default();
+        it.lengthen(3.0, 3.0, 2.0);
+        it.lengthen(6.0, 8.0, 1.0);
+        assert_eq!(
+            [2.0, 3.0, 5.0, 8.0, 9.0, 10.0].map(|at| it.x(at)),
+            [2.0, 3.0, 3.0, 6.0, 6.0, 7.0]
+        );
+        assert_eq!([it.goal(3.0), it.goal(6.0), it.goal(9.0)], [3.0, 8.0, 12.0]);
+        assert_eq!([it.owed(6.0, 8.0), it.owed(6.0, 8.5)], [1.0, 0.5]);
     }
 }

@@ -13,6 +13,7 @@ use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_devices::{Disc, People, SettingsError};
 use cotama_floor::Pose;
 
+mod beside;
 mod doors;
 
 use doors::Halts;
@@ -253,18 +254,6 @@ impl<'c> Rover<'c> {
         self.people.as_ref().map_or(&[], People::now)
     }
 
-    /// Returns the way that is left to drive beside its path.
-    pub fn owed(&self) -> Millimetres {
-        let longer = self.detours.owed(self.x.0 as f64 / 1_000.0, self.along());
-        let longer = if self.detours.is_none() { 0 } else { milli(longer) };
-        Millimetres(self.owed.0 + longer)
-    }
-
-    /// Owes a way beside its path: it turns back and comes again before it goes on.
-    pub fn owe(&mut self, way: Millimetres) {
-        self.owed.0 += way.0;
-    }
-
     /// Returns how far it would still go if it braked now.
     pub fn braking_distance(&self) -> Millimetres {
         let speed = self.vehicle.speeds().speed;
@@ -420,22 +409,6 @@ impl<'c> Rover<'c> {
     /// Returns how far it is along its path, no further than an end, and never less than before.
     fn reached(&self, along: f64, end: Millimetres) -> Millimetres {
         self.x.max(Millimetres(floor_milli(self.detours.x(along)).min(end.0)))
-    }
-
-    /// Turns back for half of the way that is owed, as far as there is path behind it.
-    fn turn_back(&mut self) {
-        let along = self.follower.along();
-        let half = (self.owed.0 as f64 / 2_000.0).min(along);
-        self.turned = along;
-        let back = self.course().track().length() - along;
-        self.aside = Aside::Back(back + half);
-        let at = self.believed().translation.vector.into();
-        self.follower = Follower::new(self.course().back().find(at, back - 0.1, back + 0.1).0);
-    }
-
-    fn follow(&mut self, along: f64) {
-        let at = self.believed().translation.vector.into();
-        self.follower = Follower::new(self.course().track().find(at, along - 0.1, along + 0.1).0);
     }
 }
 
