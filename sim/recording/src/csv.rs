@@ -6,11 +6,11 @@ use std::fmt::Write;
 /// The columns of [`csv`].
 pub const COLUMNS: &str = "t_s,x_m,speed_m_s,used_s,used_j,margin_s,margin_j,planned_power_w,\
     real_power_w,true_x_m,true_y_m,true_heading_rad,odometry_x_m,odometry_y_m,\
-    odometry_heading_rad,configuration";
+    odometry_heading_rad,battery_v,battery_a,configuration";
 
 /// Returns a run as comma-separated values: a heading, and a line for each sample, with the
-/// configuration that runs. Numbers are as exact as in the trace. Poses are empty where the robot
-/// had none at that time, as on a line.
+/// configuration that runs. Numbers are as exact as in the trace. Poses and battery are empty where
+/// the robot had none at that time, as on a line.
 ///
 /// ```
 /// use cotama_models::missions::{Mission, embedded};
@@ -21,7 +21,7 @@ pub const COLUMNS: &str = "t_s,x_m,speed_m_s,used_s,used_j,margin_s,margin_j,pla
 /// let (trace, _) = Trace::record(&mission, &Options::default()).unwrap();
 /// let csv = cotama_recording::csv(&trace);
 /// assert!(csv.starts_with("t_s,x_m,speed_m_s,"));
-/// assert!(csv.lines().skip(1).all(|it| it.ends_with(",,,,,,,"))); // on a line, unsupervised
+/// assert!(csv.lines().skip(1).all(|it| it.ends_with(",,,,,,,,,"))); // on a line, unsupervised
 /// ```
 pub fn csv(trace: &Trace) -> String {
     let mut poses = trace.records.iter().filter_map(|it| match it {
@@ -59,8 +59,14 @@ pub fn csv(trace: &Trace) -> String {
                         for it in [x, y, it.heading_mrad, told_x, told_y, it.odometry_mrad] {
                             thousandths(&mut text, it.into());
                         }
+                        match it.battery_mv_ma {
+                            Some(it) => {
+                                it.into_iter().for_each(|it| thousandths(&mut text, it.into()));
+                            }
+                            None => text += ",,",
+                        }
                     }
-                    None => text += ",,,,,,",
+                    None => text += ",,,,,,,,",
                 }
                 let _ = writeln!(text, ",{configuration}");
             }

@@ -30,7 +30,7 @@ impl From<SettingsError> for NoRecording {
 /// | `/tf` | `TFMessage` | each pose: `map` to `odom` to `base_link` |
 /// | `/pose`, `/odom` | `PoseWithCovarianceStamped` | each pose: the true one, that of odometry |
 /// | `/scan`, `/sonars`, `/sonar_N` | `LaserScan`, `MarkerArray`, `Range` | each pose |
-/// | `/battery` | `BatteryState` | each sample: the part of the energy limit that is left |
+/// | `/battery` | `BatteryState` | each sample: voltage, current, the part of the energy limit that is left |
 /// | `/speed_m_s`, `/power_w`, `/margins/..` | `Float64` | each sample |
 /// | `/diagnostics` | `DiagnosticArray` | each failure and diagnosis |
 /// | `/supervisors/NET` | `String` | each firing: the place that the net is in |
@@ -65,13 +65,20 @@ pub fn mcap(trace: &Trace) -> Result<Vec<u8>, NoRecording> {
     let mut number = 0;
     let mut last = None;
     let mut lines = crate::log::lines(trace).into_iter().peekable();
-    for record in &trace.records {
+    let mut battery = None;
+    for (at, record) in trace.records.iter().enumerate() {
         let t_us = record.t_us();
         while let Some(it) = lines.next_if(|it| it.t_us <= t_us) {
             file.put("/log", it.t_us, &messages::log(it.t_us, it.weight, &it.text));
         }
         match record {
-            Record::Sample(it) => file.sample(it, trace.header.limits),
+            Record::Sample(it) => {
+                // The pose of a sample follows it.
+                if let Some(Record::Pose(next)) = trace.records.get(at + 1) {
+                    battery = next.battery_mv_ma;
+                }
+                file.sample(it, trace.header.limits, battery);
+            }
             // Two at one time are the same.
             Record::Pose(it) if last != Some(t_us) => {
                 last = Some(t_us);
@@ -132,9 +139,9 @@ impl File {
         }
     }
 
-    fn sample(&mut self, it: &Sample, limits: Used) {
+    fn sample(&mut self, it: &Sample, limits: Used, known: Option<[u32; 2]>) {
         let left = 1.0 - it.used.energy_mj as f64 / limits.energy_mj.max(1) as f64;
-        let battery = messages::battery(it.t_us, "base_link", left.clamp(0.0, 1.0));
+        let battery = messages::battery(it.t_us, "base_link", left.clamp(0.0, 1.0), known);
         self.put("/battery", it.t_us, &battery);
         let numbers = [
             ("/speed_m_s", it.speed_mm_s as f64),

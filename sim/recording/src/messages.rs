@@ -204,14 +204,20 @@ pub(crate) fn cones(t_us: u64, frame: &str, cones: &[Cone]) -> Message {
     })
 }
 
-/// Returns the state of a battery that is so full, from 0 to 1. All that is not known is no number.
-pub(crate) fn battery(t_us: u64, frame: &str, part: f64) -> Message {
+/// Returns the state of a battery that is so full, from 0 to 1, with its voltage and the current that
+/// it gives, in mV and mA. All that is not known is no number.
+pub(crate) fn battery(t_us: u64, frame: &str, part: f64, known: Option<[u32; 2]>) -> Message {
     const DISCHARGING: u8 = 2;
     const UNKNOWN: u8 = 0;
+    const NO: f64 = f64::NAN;
     message(BATTERY, |cdr| {
         header(cdr, t_us, frame);
+        let [voltage, current] = match known {
+            Some([mv, ma]) => [f64::from(mv) / 1_000.0, -f64::from(ma) / 1_000.0], // below 0: given
+            None => [f64::NAN; 2],
+        };
         // Voltage, temperature, current, charge, capacity, capacity by design.
-        [f64::NAN; 6].into_iter().for_each(|it| cdr.f32(it));
+        [voltage, NO, current, NO, NO, NO].into_iter().for_each(|it| cdr.f32(it));
         cdr.f32(part);
         [DISCHARGING, UNKNOWN, UNKNOWN].into_iter().for_each(|it| cdr.u8(it));
         cdr.u8(1); // present

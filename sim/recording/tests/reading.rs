@@ -153,6 +153,26 @@ fn a_scan_sees_the_walls_of_the_corridor() {
     }
 }
 
+/// Three batteries of 12 V feed a computer and two motors.
+#[test]
+fn a_battery_tells_the_voltage_and_the_current_of_the_pose_beside_the_sample() {
+    let file = File::read(&FILE);
+    let known = poses(&PLANE);
+    let told: Vec<_> = file
+        .of("/battery")
+        .skip(1) // before the first pose nothing is known
+        .map(|message| {
+            let mut cdr = Cdr::of(&message.data);
+            let _stamp_and_frame = ([(); 2].map(|()| cdr.u32()), cdr.text());
+            let [voltage, temperature, current] = [(); 3].map(|()| cdr.f32());
+            assert!(temperature.is_nan() && (11.0..14.0).contains(&voltage), "{voltage}");
+            [voltage, -current].map(|it| (it * 1_000.0).round() as u32)
+        })
+        .collect();
+    assert!(told.len() > 400 && told.iter().any(|it| it[1] > 500));
+    assert!(told.iter().all(|it| known.iter().any(|pose| pose.battery_mv_ma == Some(*it))));
+}
+
 #[test]
 fn the_log_tells_the_seven_points() {
     let file = File::read(&FILE);
@@ -197,7 +217,7 @@ fn a_run_on_a_line_has_samples_and_no_poses() {
     let line = record(Fidelity::Line);
     assert_eq!(mcap(&line), Err(NoRecording::Line));
     assert_eq!(tum(&line), Err(NoRecording::Line));
-    assert!(csv(&line).lines().skip(1).all(|it| it.contains(",,,,,,,")));
+    assert!(csv(&line).lines().skip(1).all(|it| it.contains(",,,,,,,,,")));
 }
 
 #[test]

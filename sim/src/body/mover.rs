@@ -1,7 +1,7 @@
 //! The body of a robot on its mission, at the fidelity of the run.
 
 use super::{Drive, FIRMWARE_WATCHDOG};
-use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
+use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis, Milliwatts};
 use cotama_models::robots::{Harmed, Robot};
 use cotama_plane::{Course, Met, Rover};
 use cotama_senses::{Bench, Senses, Uses};
@@ -183,6 +183,13 @@ impl<'c> Mover<'c> {
         }
         if let Some(rover) = self.rover_mut() {
             rover.owe(way);
+        }
+    }
+
+    /// Feeds hardware with so much power from now on, beside the motors.
+    pub(crate) fn power_hardware(&mut self, power: Milliwatts) {
+        if let Some(rover) = self.rover_mut() {
+            rover.power_hardware(power.0 as f64 / 1_000.0);
         }
     }
 

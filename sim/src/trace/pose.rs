@@ -21,6 +21,9 @@ pub struct Pose {
     /// The place and the heading at which it believes to be, where it works them out itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub believed: Option<([i32; 2], i32)>,
+    /// Voltage under load and current of its battery, in mV and mA, where its file has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub battery_mv_ma: Option<[u32; 2]>,
     /// The people around it, and things that are on no map.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub people_mm: Vec<[i32; 2]>,

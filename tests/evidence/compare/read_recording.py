@@ -98,6 +98,9 @@ def hold_values(trace, read):
     for sample, message in zip(samples, read["/battery"]):
         left = 1 - sample["used"]["energy_mj"] / limit
         near("/battery", [message.percentage], [min(max(left, 0), 1)])
+        known = {it["t_us"]: it.get("battery_mv_ma") for it in trace["poses"]}.get(sample["t_us"])
+        if known:
+            near("/battery", [message.voltage, -message.current], [it / 1000 for it in known], 1e-4)
     for topic, keys in FLOATS.items():
         for sample, message in zip(samples, read[topic]):
             value = sample

@@ -21,6 +21,9 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             self.drive.stand();
         }
         self.prepare();
+        if self.drive.rover().is_some() {
+            self.drive.power_hardware(self.power_beside());
+        }
         self.failures.go(self.robot, self.now, &demand, &mut self.drive);
         let moved = self.drive.moved();
         if self.drive.touches() && self.run.touched.is_none() {
@@ -156,6 +159,15 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         }
         if moved || !self.drive.stands() {
             return self.pace().1;
+        }
+        self.planning.rest_power(self.activity(), self.configuration())
+    }
+
+    /// Returns the power of all but the motors: that of the task for which the robot stands, or else
+    /// that of rest.
+    fn power_beside(&self) -> Milliwatts {
+        if self.objective_stands() {
+            return self.power(false);
         }
         self.planning.rest_power(self.activity(), self.configuration())
     }

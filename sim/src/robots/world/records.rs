@@ -294,6 +294,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
                     [rover.pose(), rover.odometry()].map(whole);
                 let person = |it: &cotama_plane::Disc| in_mm(it.centre.x, it.centre.y);
                 let people_mm = rover.people().iter().chain(rover.things()).map(person).collect();
+                let battery_mv_ma = rover.signals().battery.map(in_milli);
                 let believed = self.failures.signals.map(|_| whole(&rover.believed()));
                 to.put(|| {
                     Record::Pose(Pose {
@@ -304,6 +305,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
                         odometry_mm,
                         odometry_mrad,
                         believed,
+                        battery_mv_ma,
                         people_mm,
                     })
                 });
@@ -347,6 +349,12 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             })
         });
     }
+}
+
+/// Voltage and current in whole mV and mA.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a robot's battery
+fn in_milli(it: cotama_plane::BatterySignals) -> [u32; 2] {
+    [it.voltage_v, it.current_a].map(|it| (it * 1_000.0).round() as u32)
 }
 
 /// A pose in whole mm and thousandths of a radian.
