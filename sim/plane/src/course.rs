@@ -136,14 +136,9 @@ impl Course {
     pub fn of(mission: &Mission, people: usize) -> Result<Self, NoCourse> {
         let body = mission.robot().and_then(|it| it.robot().body.as_ref()).ok_or(NoCourse::Body)?;
         let drivetrain = Drivetrain::of(body);
-        let (way, spare) = match &mission.way {
-            Some(it) => (it.clone(), Millimetres(0)),
-            None => {
-                let spare = wrong(mission);
-                let length = Millimetres(mission.path_length.0.saturating_add(spare.0));
-                (corridors::along(length).ok_or(NoCourse::Long)?, spare)
-            }
-        };
+        let spare = if mission.way.is_none() { wrong(mission) } else { Millimetres(0) };
+        let length = Millimetres(mission.path_length.0.saturating_add(spare.0));
+        let way = mission.way.clone().or_else(|| corridors::along(length)).ok_or(NoCourse::Long)?;
         let spare = spare.0 as f64 / 1_000.0;
         let why = |it: String| NoCourse::Floor(it);
         let [real, charted] = Held::of(&way).map_err(why)?;

@@ -187,6 +187,7 @@ impl<'c> Mover<'c> {
     }
 
     /// Feeds hardware with so much power from now on, beside the motors.
+    #[allow(clippy::cast_precision_loss)] // the power of a robot
     pub(crate) fn power_hardware(&mut self, power: Milliwatts) {
         if let Some(rover) = self.rover_mut() {
             rover.power_hardware(power.0 as f64 / 1_000.0);
