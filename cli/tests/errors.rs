@@ -20,7 +20,7 @@ fn an_error_is_an_object_of_its_own_schema() {
             "message": "there is no mission `patroll`, and no file of this name; did you mean \
                         `patrol`?",
             "file": null, "line": null, "column": null,
-            "help": "missions that come with the program: patrol, delivery, shift; or give the \
+            "help": "missions that come with the program: patrol, delivery, shift, ward; or give the \
                      path of a mission file",
         })
     );

@@ -16,7 +16,7 @@ use std::sync::LazyLock;
 
 /// The mission `shift` over the clinic.
 static WARD: LazyLock<Mission> = LazyLock::new(|| {
-    let text = include_str!("common/ward.toml");
+    let text = embedded::mission("ward").unwrap().text;
     let robot = RobotFile::shipped("transport").unwrap();
     let body = robot.robot().body.as_ref().unwrap();
     let needs = Needs { radius_m: body.radius.0 as f64 / 1_000.0, ..Needs::default() };

@@ -11,7 +11,7 @@ pub struct Embedded {
     pub text: &'static str,
 }
 
-const MISSIONS: [Embedded; 3] = [
+const MISSIONS: [Embedded; 4] = [
     Embedded {
         name: "patrol",
         description: "Patrol of Lambert et al. 2024: 187 m through two halls, two valves to \
@@ -29,6 +29,11 @@ const MISSIONS: [Embedded; 3] = [
         description: "Shift of the transport robot, under the supervisors that its file makes",
         text: include_str!("../../missions/shift.toml"),
     },
+    Embedded {
+        name: "ward",
+        description: "The same shift over the floor of a clinic, by lasers and marks",
+        text: include_str!("../../missions/ward.toml"),
+    },
 ];
 
 /// All missions that come with the program.
@@ -36,7 +41,7 @@ const MISSIONS: [Embedded; 3] = [
 /// ```
 /// use cotama_models::missions::embedded;
 /// let names: Vec<_> = embedded::embedded().iter().map(|it| it.name).collect();
-/// assert_eq!(names, ["patrol", "delivery", "shift"]);
+/// assert_eq!(names, ["patrol", "delivery", "shift", "ward"]);
 /// ```
 pub fn embedded() -> &'static [Embedded] {
     &MISSIONS
