@@ -4,10 +4,11 @@
 use cotama_campaign::run::{Campaign, Settings};
 use cotama_campaign::subject::{Policy, Subject};
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::missions::Mission;
+use cotama_models::missions::{Mission, embedded};
 use cotama_models::robots::supervisors::of_mission;
 use cotama_models::robots::{MAX_LOSSES, Moment, RobotFile};
-use cotama_sim::robots::{Driven, Injection, Script};
+use cotama_sim::options::{self as sim, FaultChoice, Fidelity};
+use cotama_sim::robots::{Driven, Injection, Run, Script};
 use cotama_sim::trace::Record;
 use cotama_tests::draw::Draw;
 use cotama_tests::drawn::Drawn;
@@ -28,9 +29,14 @@ objective = [
 
 /// Records what supervisors are told and fire under these failures, and holds it to their net.
 fn conforms(mission: &Mission, script: &Script) {
-    let mut records = Vec::new();
     let ready = Driven::new(mission).unwrap();
-    ready.run_recorded(script, Millis(1_000), &mut records).unwrap();
+    runs_as_checked(mission, &ready, script);
+}
+
+/// The same of a mission that is ready to be run; returns the run.
+fn runs_as_checked(mission: &Mission, ready: &Driven<'_>, script: &Script) -> Run {
+    let mut records = Vec::new();
+    let run = ready.run_recorded(script, Millis(1_000), &mut records).unwrap();
     let said = |(number, record): (usize, &Record)| {
         let what = match record {
             Record::Told(it) => What::Event { name: it.event.clone(), ignored: Some(false) },
@@ -49,6 +55,31 @@ fn conforms(mission: &Mission, script: &Script) {
     let system = of_mission(robot, &mission.steps());
     let verdict = system.with(|it| conform(it, &recording, Options::default()).unwrap());
     assert!(verdict.departs.is_none() && verdict.unknown.is_none(), "{verdict:?}");
+    run
+}
+
+/// Each failure of the delivery that signals show, alone, on its way to office A.
+#[test]
+fn a_delivery_by_signals_does_what_was_checked_and_reacts_within_the_proven_rounds() {
+    let known = embedded::mission("delivery").unwrap();
+    let mission = Mission::parse(known.name, known.text).unwrap();
+    let robot = mission.robot().unwrap().robot();
+    let period = robot.body.as_ref().unwrap().period;
+    let (fidelity, faults) = (Fidelity::Signal, FaultChoice::None);
+    let options = sim::Options { fidelity, faults, ..sim::Options::default() };
+    let ready = Driven::with(&mission, &options).unwrap();
+    let (mut found, mut worst) = (0, 0);
+    for (failure, row) in robot.failures.iter().enumerate() {
+        let injections = vec![Injection::new(Moment::Place(Millimetres(20_000)), failure)];
+        let run = runs_as_checked(&mission, &ready, &Script { injections, ..Script::default() });
+        let Some(conduct) = run.conduct.first() else { continue };
+        let Some((seen, answered)) = conduct.detected.zip(conduct.answered) else { continue };
+        let most = conduct.taken_for.iter().filter_map(|it| robot.reacts_in(*it)).max().unwrap();
+        let took = answered.0.saturating_sub(seen.0) / period.0;
+        assert!(took <= most, "{}: {took} rounds, {most} at most", row.id);
+        (found, worst) = (found + 1, worst.max(took));
+    }
+    assert_eq!((found, worst), (28, 3));
 }
 
 /// The exception: a motor runs away while the computer is down, so nothing can halt it.

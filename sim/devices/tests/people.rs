@@ -118,7 +118,7 @@ fn people_are_in_the_same_places_however_often_they_are_asked() {
 }
 
 #[test]
-fn who_comes_to_a_door_that_has_closed_turns_back() {
+fn a_person_before_a_door_that_has_closed_turns_back() {
     let mut people = walker();
     let leaf = [[10.0, -1.0], [10.0, 1.0]].map(Point::from);
     let mut at = |ms, leaves: Vec<[Point; 2]>| {

@@ -127,9 +127,9 @@ fn is_tight(surface: &dyn Surface, drivetrain: &Drivetrain, at: Point) -> bool {
 
 impl Course {
     /// Returns the course of a mission. One that names no floor goes along
-    /// [corridors](corridors::along) as long as its path, and as all that wrong positions of its own
-    /// faults add. So many people walk between the places of
-    /// the floor, or as many as the mission says, beside those whom it names.
+    /// [corridors](corridors::along) as long as its path, and as all that wrong positions of its
+    /// own faults add. So many people walk between the places of the floor, or as many as the
+    /// mission says, beside those whom it names.
     ///
     /// # Errors
     /// A [`NoCourse`] where no robot could drive.

@@ -30,7 +30,7 @@ impl From<SettingsError> for NoRecording {
 /// | `/tf` | `TFMessage` | each pose: `map` to `odom` to `base_link` |
 /// | `/pose`, `/odom` | `PoseWithCovarianceStamped` | each pose: the true one, that of odometry |
 /// | `/scan`, `/sonars`, `/sonar_N` | `LaserScan`, `MarkerArray`, `Range` | each pose |
-/// | `/battery` | `BatteryState` | each sample: voltage, current, the part of the energy limit that is left |
+/// | `/battery` | `BatteryState` | each sample: voltage, current, part of the energy limit left |
 /// | `/speed_m_s`, `/power_w`, `/margins/..` | `Float64` | each sample |
 /// | `/diagnostics` | `DiagnosticArray` | each failure and diagnosis |
 /// | `/supervisors/NET` | `String` | each firing: the place that the net is in |

@@ -204,8 +204,8 @@ pub(crate) fn cones(t_us: u64, frame: &str, cones: &[Cone]) -> Message {
     })
 }
 
-/// Returns the state of a battery that is so full, from 0 to 1, with its voltage and the current that
-/// it gives, in mV and mA. All that is not known is no number.
+/// Returns the state of a battery that is so full, from 0 to 1, with its voltage and the current
+/// that it gives, in mV and mA. All that is not known is no number.
 pub(crate) fn battery(t_us: u64, frame: &str, part: f64, known: Option<[u32; 2]>) -> Message {
     const DISCHARGING: u8 = 2;
     const UNKNOWN: u8 = 0;

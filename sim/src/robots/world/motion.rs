@@ -163,8 +163,8 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         self.planning.rest_power(self.activity(), self.configuration())
     }
 
-    /// Returns the power of all but the motors: that of the task for which the robot stands, or else
-    /// that of rest.
+    /// Returns the power of all but the motors: that of the task for which the robot stands, or
+    /// else that of rest.
     fn power_beside(&self) -> Milliwatts {
         if self.objective_stands() {
             return self.power(false);
