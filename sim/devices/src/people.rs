@@ -219,8 +219,8 @@ impl People {
     /// let mut people = People::default();
     /// let walker = Walker { name: "Anna".into(), goes, from: Millis(3_000) };
     /// people.join(&walker, &Streams::new(7));
-    /// let mut at = |ms| people.advance(Millis(ms), &[])[0].centre.x;
-    /// assert_eq!([at(3_000), at(5_000)], [0.0, 2.0]);
+    /// let mut at_mm = |ms| (people.advance(Millis(ms), &[])[0].centre.x * 1e3).round();
+    /// assert_eq!([at_mm(3_000), at_mm(5_000)], [0.0, 2_000.0]);
     /// ```
     pub fn join(&mut self, walker: &Walker, streams: &Streams) {
         let Walker { name, goes, from } = walker;
