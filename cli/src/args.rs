@@ -25,8 +25,8 @@ pub(crate) use fitted::command;
 pub(crate) use floor::FloorArgs;
 pub(crate) use fmeca::{FmecaArgs, FmecaFormat};
 pub(crate) use mission::{
-    AllocateArgs, AllocatorName, Fidelity, Lost, Objective, PlanArgs, Planning, ReplayArgs,
-    RunArgs, STEPS,
+    AllocateArgs, AllocatorName, Fidelity, Lost, Objective, OperatorName, PlanArgs, Planning,
+    ReplayArgs, RunArgs, STEPS,
 };
 pub(crate) use model::{DrawnAs, ExportArgs, Format, ModelsArgs, SimulateArgs};
 pub(crate) use new::{NewArgs, NewKind};

@@ -6,7 +6,7 @@ use crate::exit::Failure;
 use crate::file_errors::FileErrors;
 use crate::names::near;
 use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::io::{BufRead, ErrorKind, Read};
 use std::path::Path;
 
 /// The most bytes of a mission or a file of faults.
@@ -27,6 +27,9 @@ pub(crate) const PROPERTIES_BYTES: u64 = 64 << 20;
 pub(crate) const CERTIFICATE_BYTES: u64 = 64 << 20;
 /// The most bytes of a list of events.
 pub(crate) const SCRIPT_BYTES: u64 = 1 << 20;
+
+/// The most bytes of an answer of a person.
+const ANSWER_BYTES: u64 = 4 << 10;
 
 /// The text of a file, or of standard input for `-`; `what` says what it should be, as `a mission
 /// file`.
@@ -54,6 +57,15 @@ pub(crate) fn bytes(path: &str, what: &str, limit: u64) -> Result<Vec<u8>, Failu
         return Err(Failure::of(name, message).help(format!("is this really {what}?")));
     }
     Ok(bytes)
+}
+
+/// A line of standard input, without its end; `None` where there is none any more.
+pub(crate) fn answer() -> Result<Option<String>, Failure> {
+    let mut line = Vec::new();
+    let mut limited = std::io::stdin().lock().take(ANSWER_BYTES);
+    let read = limited.read_until(b'\n', &mut line);
+    read.map_err(|error| unreadable("standard input", "an answer", &error))?;
+    Ok((!line.is_empty()).then(|| String::from_utf8_lossy(&line).trim().to_owned()))
 }
 
 /// Returns the name of a path in messages.

@@ -1,7 +1,7 @@
 //! `cotama run`: a mission planned, run with its faults, planned again where needed, and reported.
 
 use crate::answers::{Outcome, RunAnswer, RunBody};
-use crate::args::{Fidelity, Lost, RunArgs};
+use crate::args::{Fidelity, Lost, OperatorName, RunArgs};
 use crate::exit::{Exit, Failure};
 use crate::infeasible;
 use crate::input;
@@ -27,7 +27,9 @@ use cotama_sim::run::{NoPlan, Reason, Run};
 use cotama_sim::trace::{RecordError, Trace};
 use std::path::{Path, PathBuf};
 
+mod asked;
 mod body;
+mod situation;
 mod supervised;
 mod team;
 
@@ -43,6 +45,10 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
         output::report(folder)?;
     }
     recording::places(&args.recording)?;
+    if args.operator == OperatorName::Ask && args.mission.mission == "-" {
+        let message = "--operator ask reads answers from standard input, where the mission is";
+        return Err(Failure::new(message).help("give the mission as a file"));
+    }
     if let Some(team) = Chosen::of(&args.mission.mission)? {
         return team::run(args, &team, screen);
     }
@@ -53,6 +59,10 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
     recording::needs_plane(&args.recording, args.fidelity.into(), remedy)?;
     let mission = mission::load_for(&args.mission.mission, &args.planning, Some(screen))?;
     let options = options(args, &mission)?;
+    let options = match args.operator {
+        OperatorName::Script => options,
+        OperatorName::Ask => asked::answered(&mission, options, screen)?,
+    };
     if let Some(note) = planned_otherwise(args, &options, &mission) {
         screen.note(&note);
     }
@@ -120,6 +130,9 @@ fn planned_otherwise(args: &RunArgs, options: &Options, mission: &Mission) -> Op
 fn next(args: &RunArgs, mission: &Mission, body: &RunBody) -> Option<String> {
     if let Some(trace) = &body.trace {
         return Some(format!("cotama replay {}", names::quoted(trace)));
+    }
+    if args.operator == OperatorName::Ask {
+        return None; // answers are no part of a command
     }
     let objective = mission::objective(args.objective, args.planning.allocator, mission);
     words::after_run(args, body, objective.name(), |args| helps(args, body))

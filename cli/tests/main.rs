@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod allocate;
+mod asked;
 mod assign;
 mod bad_input;
 mod book;

@@ -80,6 +80,9 @@ pub(crate) struct RunArgs {
     /// a robot that comes measured, `p3dx-delivery`; the seed draws [default: latencies as assumed]
     #[arg(long, value_name = "FILE")]
     pub(crate) measured: Option<String>,
+    /// Who answers where supervisors ask the operator: he of the script, or you
+    #[arg(long, value_enum, value_name = "WHO", default_value_t = OperatorName::Script)]
+    pub(crate) operator: OperatorName,
     /// How many people walk between the places of the floor, in the plane, in place of `people` of
     /// the mission; the seed draws them
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole(0, 1_000))]
@@ -150,6 +153,16 @@ pub(crate) enum AllocatorName {
     Exact,
     /// The rule of PANORAMA: fast, can miss a plan, pursues no objective
     Panorama,
+}
+
+/// The operator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum OperatorName {
+    /// The mission's or the file's answers, and habits where they say nothing
+    Script,
+    /// You: at each request the situation is shown, over a floor as a picture, and a line of
+    /// standard input answers it, as `Teleoperation done`
+    Ask,
 }
 
 /// How closely the robot is modelled.

@@ -3,7 +3,7 @@
 mod compared;
 
 use crate::answers::team::{AwardRow, TeamAnswer, TeamErrorRow, TeamRun};
-use crate::args::{Fidelity, ReplayArgs, RunArgs, STEPS};
+use crate::args::{Fidelity, OperatorName, ReplayArgs, RunArgs, STEPS};
 use crate::exit::{Exit, Failure};
 use crate::file_errors::FileErrors;
 use crate::input;
@@ -291,6 +291,7 @@ fn for_missions(args: &RunArgs) -> Result<(), Failure> {
         ("--upward", args.upward),
         ("--fidelity", args.fidelity != Fidelity::Line),
         ("--measured", args.measured.is_some()),
+        ("--operator", args.operator != OperatorName::Script),
         ("--steps", planning.steps != STEPS),
     ];
     match given.into_iter().find(|it| it.1) {
