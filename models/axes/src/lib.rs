@@ -1,0 +1,57 @@
+//! Missions with any number of performance axes (Lambert et al., J. Intell. Robot. Syst. 110,
+//! 2024).
+//!
+//! An engineer writes down axes, their indicators with formulas of inducers, and constraints:
+//! phase P0, read once by [`Case::parse`]. Phase P1 makes activities and candidates with the speeds
+//! that core constraints allow ([`Table`]), and says [why](why::why) a candidate is not faster.
+//! Phase P2 takes a candidate for each activity so that all limits on sums hold ([`Problem`]),
+//! exactly, as a [front](Problem::front), or by the paper's [rule](rule::rule); where there is no
+//! plan, [`Infeasible`] names least sets of constraints to lift, and goals that suffice.
+//!
+//! All numbers are whole. Every search has a limit on its [`Steps`]: reaching it is an answer.
+//!
+//! ```
+//! use cotama_axes::{Case, Lifted, Problem, Steps, Table, label};
+//!
+//! let case = Case::parse(cotama_axes::PATROL).unwrap();
+//! let (mission, mut steps) = (&case.mission, Steps::default());
+//! let table = Table::new(mission, Lifted::default(), &mut steps).unwrap();
+//! let problem = Problem::new(mission, &table, Lifted::default());
+//! let plan = problem.best(&case.ask, &mut steps).unwrap().unwrap();
+//! let first = &table.activities[0].candidates[plan.choices[0]];
+//! assert_eq!((label(mission, &first.options).as_str(), first.speed_mm_s), ("M1 L2", 410));
+//! assert_eq!(plan.totals[mission.indicator("energy.RC").unwrap()], 6_181_615);
+//! ```
+
+mod corrections;
+mod count;
+mod dominance;
+mod fields;
+mod formula;
+mod json;
+mod mission;
+mod plan;
+mod read;
+pub mod rule;
+mod search;
+mod steps;
+mod table;
+mod toml_text;
+mod tree;
+pub mod why;
+mod world;
+
+pub use corrections::{Infeasible, Single};
+pub use formula::{Formula, Inducer};
+pub use mission::{
+    Ask, Attributes, Axis, Constraint, DetectBy, Hardware, Indicator, Kind, LOCALISATION, Lifted,
+    Mission, Objective, Relation, Sense, Tio, Zone,
+};
+pub use plan::{Plan, Point, Problem};
+pub use read::{CASE_FORMAT, Case, FORMAT, MAX_BYTES};
+pub use steps::{STEPS, Steps, Stop};
+pub use table::{Activity, Candidate, Dropped, Reason, Table, label, speed_alone};
+pub use tree::Wrong;
+
+/// The patrol of the paper with five limited axes; the file gives the source of each value.
+pub const PATROL: &str = include_str!("../missions/patrol.toml");

@@ -1,0 +1,113 @@
+//! Reasons of the patrol's speeds: constraints and inducers that bind, and how far each number may
+//! move until Table 5 changes.
+
+use super::patrol::SPEEDS;
+use super::{lifted, table};
+use cotama_axes::why::why;
+use cotama_axes::{Activity, Case, PATROL, Steps, label, speed_alone};
+
+/// The speed of an activity with M5 and another option, the constraints that bind, and what each
+/// printed core constraint allows alone, in mm/s: 3000 stands for all.
+fn speed(activity: usize, with: &str) -> (i64, Vec<&'static str>, [i64; 3]) {
+    let names = ["harmless", "avoidance", "frames"];
+    let case = Case::parse(PATROL).unwrap();
+    let mission = &case.mission;
+    let table = table(&case, lifted(&case, &["cpu", "error"]));
+    let activity = &table.activities[activity - 1];
+    let wanted = format!("M5 {with}");
+    let mut all = activity.candidates.iter();
+    let it = all.find(|it| label(mission, &it.options) == wanted).unwrap();
+    let number = |name: &str| mission.constraint(name).unwrap();
+    let binding = names.iter().copied().filter(|name| it.bounded_by.contains(&number(name)));
+    let alone = names.map(|name| {
+        let steps = &mut Steps::default();
+        speed_alone(mission, activity, &it.options, number(name), 3_000, steps).unwrap().unwrap()
+    });
+    (it.speed_mm_s, binding.collect(), alone)
+}
+
+#[test]
+fn a_speed_has_a_constraint_that_binds() {
+    assert_eq!(speed(1, "L1"), (410, vec!["avoidance"], [565, 411, 3_000]));
+    assert_eq!(speed(1, "L2"), (410, vec!["avoidance", "frames"], [565, 411, 419]));
+    assert_eq!(speed(2, "L2"), (330, vec!["avoidance"], [565, 337, 419]));
+    assert_eq!(speed(9, "L1"), (560, vec!["harmless"], [565, 574, 3_000]));
+    assert_eq!(speed(9, "L2"), (410, vec!["frames"], [565, 574, 419]));
+    assert_eq!(speed(10, "L2"), (410, vec!["frames"], [565, 574, 419]));
+}
+
+#[test]
+fn inducers_that_bind_are_named_with_their_source() {
+    let case = Case::parse(PATROL).unwrap();
+    let table = table(&case, lifted(&case, &["cpu", "error"]));
+    let said = |activity: usize, options: &str| {
+        let activity = &table.activities[activity - 1];
+        let mut all = activity.candidates.iter();
+        let it = all.find(|it| label(&case.mission, &it.options) == options).unwrap();
+        let bindings = why(&case.mission, activity, it).unwrap();
+        let cause = |it: &cotama_axes::why::Cause| format!("{} {} {}", it.name, it.value, it.of);
+        let causes = bindings.iter().flat_map(|it| it.inducers.iter().map(cause));
+        let values = bindings.iter().map(|it| (it.value, it.value_next, it.goal));
+        (values.collect::<Vec<_>>(), causes.collect::<Vec<_>>())
+    };
+    let (values, causes) = said(9, "M5 L1");
+    assert_eq!(values, [(3_920, 4_062, 4_000)]);
+    assert_eq!(causes, ["speed_mm_s 570 ", "robot.mass_g 25000 "]);
+    let (values, causes) = said(9, "M5 L2");
+    assert_eq!(values, [(13_667, 14_000, 14_000)]);
+    assert_eq!(causes, ["speed_mm_s 420 ", "option(frames) 1 L2"]);
+    // In the glass the sonar's period counts, and the width, not the sensor's range.
+    let (values, causes) = said(2, "M5 L1");
+    assert_eq!(values, [(11_900, -4_467, 0)]);
+    assert_eq!(
+        causes,
+        [
+            "speed_mm_s 340 ",
+            "robot.body_radius_mm 250 ",
+            "robot.braking_mm_s2 300 ",
+            "robot.cycle_ms 100 ",
+            "robot.wall_clearance_mm 235 ",
+            "zone_min(width_mm) 1700 H1-out",
+            "detector(detect_ms) 420 sonar",
+        ]
+    );
+    assert_eq!(said(4, "T1 L1"), (vec![], vec![]));
+}
+
+/// One number changed at a time: Table 5's speeds stay from one end to the other, and no further.
+#[test]
+fn each_number_has_an_interval_in_which_table_5_stays() {
+    let stays = |key: &str, now: i64, value: i64| {
+        let now = format!("{key} = {now}");
+        let changed = PATROL.replace(&format!("{now} "), &format!("{key} = {value} "));
+        let changed = changed.replace(&format!("{now}\n"), &format!("{key} = {value}\n"));
+        assert_ne!(changed, PATROL, "{now}");
+        let case = Case::parse(&changed).unwrap();
+        let table = table(&case, lifted(&case, &["cpu", "error"]));
+        let speeds: Vec<_> = table.activities.iter().map(Activity::speed_max_mm_s).collect();
+        speeds == SPEEDS
+    };
+    for (key, now, least, most) in [
+        ("mass_g", 25_000, Some(24_617), Some(25_503)),
+        ("speed_max_mm_s", 760, Some(560), None),
+        ("braking_mm_s2", 300, Some(297), Some(307)),
+        ("body_radius_mm", 250, Some(246), Some(252)),
+        ("wall_clearance_mm", 235, Some(231), Some(237)),
+        ("cycle_ms", 100, Some(87), Some(106)),
+        ("detect_ms", 420, Some(407), Some(456)),
+        ("detect_ms", 100, Some(70), Some(106)),
+        ("range_mm", 5_000, Some(604), None),
+        ("range_mm", 4_000, Some(885), None),
+        ("width_mm", 1_700, Some(1_696), Some(1_709)),
+        ("width_mm", 2_300, Some(2_240), None),
+        ("goal", 4_000, Some(3_921), Some(4_062)),
+        ("goal", 14_000, Some(13_668), Some(14_000)),
+    ] {
+        let ends = [(least, -1), (most, 1)];
+        for (end, beyond) in ends.into_iter().filter_map(|it| Some((it.0?, it.1))) {
+            assert!(end == now || stays(key, now, end), "{key} {end}");
+            assert!(!stays(key, now, end + beyond), "{key} {}", end + beyond);
+        }
+        assert!(most.is_some() || stays(key, now, 10 * now), "{key}");
+    }
+}
