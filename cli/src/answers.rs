@@ -1,6 +1,7 @@
 //! The answers in JSON: types that are written, and from which `schemas/cotama.json` is made.
 
 pub(crate) mod assign;
+pub(crate) mod axes;
 pub(crate) mod campaign;
 pub(crate) mod check;
 pub(crate) mod conform;

@@ -92,6 +92,10 @@ Examples:
     /// one candidate for each activity, so that duration and energy stay within their limits. It is
     /// found by a complete search for the most quality, or for the least energy, or by the rule of
     /// PANORAMA, a method to plan what a robot uses (Lambert et al. 2024), as the mission says.
+    ///
+    /// A mission with axes of its own, a file of the format `cotama-axes/1`, has indicators with
+    /// formulas and constraints on them: speeds follow from these, and the plan is the best for
+    /// what the file asks.
     #[command(after_long_help = "\
 Examples:
   $ cotama plan patrol

@@ -13,6 +13,8 @@ use std::io::Read;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Mission,
+    /// A mission with performance axes of its own.
+    Axes,
     Faults,
     Pnml,
     /// A property file of the Model Checking Contest.
@@ -63,6 +65,7 @@ impl Kind {
         let value = format.and_then(|it| it.trim_start().strip_prefix('=')).map(str::trim_start);
         match value.map(|it| it.trim_start_matches(['"', '\''])) {
             Some(it) if it.starts_with("panorama-mission/") => return Some(Self::Mission),
+            Some(it) if it.starts_with("cotama-axes/") => return Some(Self::Axes),
             Some(it) if it.starts_with("panorama-faults/") => return Some(Self::Faults),
             Some(it) if it.starts_with("cotama-fmeca/") => return Some(Self::Fmeca),
             Some(it) if it.starts_with("cotama-measurement/") => return Some(Self::Measurement),
@@ -92,6 +95,8 @@ impl Kind {
             ("\"cotama-team-assignment/", Self::Team),
             ("\"cotama-team/", Self::TeamAtWork),
             ("\"cotama-robot/", Self::Robot),
+            ("\"axes-case/", Self::Axes),
+            ("\"cotama-axes/", Self::Axes),
         ];
         if let Some(it) = formats.iter().find(|it| format.is_some_and(|is| is.starts_with(it.0))) {
             return Some(it.1);
@@ -108,6 +113,7 @@ impl Kind {
     const fn words(self) -> &'static str {
         match self {
             Self::Mission => "a mission",
+            Self::Axes => "a mission with axes",
             Self::Faults => "a file of faults",
             Self::Pnml => "PNML, a net",
             Self::Properties => "a property file",
@@ -133,6 +139,7 @@ impl Kind {
     const fn origin(self) -> &'static str {
         match self {
             Self::Mission => "`cotama new mission NAME` begins one",
+            Self::Axes => "`cotama help plan` says how one begins",
             Self::Faults => "one in which nothing goes wrong is `format = \"panorama-faults/1\"`",
             Self::Pnml | Self::JsonNet | Self::JsonSystem | Self::Tina => {
                 "`cotama models` lists those that come with the program"
@@ -156,7 +163,7 @@ impl Kind {
     /// The command that reads it.
     fn command(self, file: &str) -> String {
         match self {
-            Self::Mission => format!("cotama plan {file}"),
+            Self::Mission | Self::Axes => format!("cotama plan {file}"),
             Self::Faults => format!("cotama run MISSION --faults {file}"),
             Self::Pnml | Self::JsonNet | Self::JsonSystem | Self::Tina | Self::Robot => {
                 format!("cotama check {file}")
@@ -214,6 +221,7 @@ pub(crate) fn expect(path: &str, bytes: &[u8], what: &str, wanted: &[Kind]) -> R
     if let Some(kind) = Kind::of(bytes).filter(|it| !wanted.contains(it)) {
         let help = match (path, kind) {
             // What was read of standard input is gone.
+            ("-", Kind::Axes) => "one is read from a file: `cotama plan CASE.json`".into(),
             ("-", Kind::TeamAtWork) => "a team is read from a file: `cotama run TEAM.toml`".into(),
             _ => format!("try `{}`", kind.command(&quoted(path))),
         };
@@ -284,6 +292,8 @@ mod tests {
             ("# two rooms\nformat = \"cotama-team/1\"", Kind::TeamAtWork),
             ("{\"limits\":{},\"activities\":[]}", Kind::Instance),
             ("{\"format\": \"cotama-team-assignment/1\",", Kind::Team),
+            ("{\"format\": \"axes-case/1\", \"id\": \"a\"", Kind::Axes),
+            ("format = 'cotama-axes/1'", Kind::Axes),
             ("{\n \"name\": \"a\",\n \"format\": \"cotama-team/1\"", Kind::TeamAtWork),
             ("# lamp\nnet lamp\ntr on off -> lit", Kind::Tina),
         ];

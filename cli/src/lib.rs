@@ -9,6 +9,7 @@ mod allocate;
 mod answers;
 mod args;
 mod assign;
+mod axes;
 mod budget;
 mod campaign;
 mod catalogue;

@@ -3,8 +3,10 @@
 use crate::allocate::exit;
 use crate::answers::{ActivityRow, FrontRow, PlanAnswer, PlanRow, Reason, Status};
 use crate::args::{Objective as Wanted, PlanArgs, STEPS};
+use crate::axes;
 use crate::exit::{Exit, Failure};
 use crate::infeasible;
+use crate::kind::{self, Kind};
 use crate::mission;
 use crate::output::Screen;
 use crate::render;
@@ -19,6 +21,9 @@ use cotama_sim::solver::{MIN_ENERGY, QUALITY};
 
 /// Splits a mission into activities and plans it.
 pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
+    if kind::is(&args.mission.mission, Kind::Axes) {
+        return axes::plan(args, screen);
+    }
     mission::pursued(args.objective, args.planning.allocator)?;
     if args.objective == Some(Wanted::Front) && args.planning.steps != STEPS {
         let message = "--steps with --objective front: its search is bounded by partial plans";

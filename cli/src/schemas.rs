@@ -51,6 +51,7 @@ fn add_named(part: &Value, all: &Value, named: &mut BTreeMap<String, Value>) {
 #[cfg(test)]
 mod tests {
     use crate::answers::assign::AssignAnswer;
+    use crate::answers::axes::AxesAnswer;
     use crate::answers::campaign::CampaignAnswer;
     use crate::answers::check::{CheckAnswer, StatespaceAnswer, VerifyAnswer};
     use crate::answers::conform::ConformAnswer;
@@ -91,6 +92,7 @@ mod tests {
         let schemas = [
             ("list", of::<ListAnswer>()),
             ("plan", of::<PlanAnswer>()),
+            ("plan-axes", of::<AxesAnswer>()),
             ("run", of::<RunAnswer>()),
             ("run-team", of::<TeamAnswer>()),
             ("allocate", of::<AllocateAnswer>()),

@@ -6,6 +6,7 @@
 mod allocate;
 mod asked;
 mod assign;
+mod axes;
 mod bad_input;
 mod book;
 mod broken_pnml;

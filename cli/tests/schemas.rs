@@ -7,9 +7,10 @@ use std::path::PathBuf;
 
 const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
 
-const COMMANDS: [&str; 21] = [
+const COMMANDS: [&str; 22] = [
     "list",
     "plan",
+    "plan-axes",
     "run",
     "run-team",
     "allocate",

@@ -14,6 +14,8 @@ pub(crate) struct SchemaArgs {
 pub(crate) enum SchemaName {
     List,
     Plan,
+    /// The answer of `plan` for a mission with axes
+    PlanAxes,
     Run,
     /// The answer of `run` for a team
     RunTeam,

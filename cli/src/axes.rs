@@ -1,0 +1,176 @@
+//! `cotama plan` of a mission with performance axes of its own.
+
+use crate::allocate::exit;
+use crate::answers::Status;
+use crate::answers::axes::{
+    AxesActivity, AxesAnswer, BoundRow, DroppedRow, InducerRow, LiftRow, TotalRow,
+};
+use crate::args::PlanArgs;
+use crate::exit::{Exit, Failure};
+use crate::file_errors::FileErrors;
+use crate::input;
+use crate::kind::{self, Kind};
+use crate::output::Screen;
+use crate::render;
+use cotama_axes::why::{Binding, Cause, why};
+use cotama_axes::{
+    Activity, Case, Infeasible, Lifted, Mission, Plan, Problem, Single, Steps, Stop, Table, Wrong,
+    label,
+};
+
+/// Plans a mission with axes.
+pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
+    refuse_others(args)?;
+    let path = &args.mission.mission;
+    let what = "a mission with axes";
+    let text = kind::text(path, what, input::MISSION_BYTES, &[Kind::Axes])?;
+    let wrong = |it: Wrong| -> Failure {
+        let place = (it.line, it.column);
+        FileErrors::at_character(path, text.clone(), place, it.message, None).into()
+    };
+    let case = Case::parse(&text).map_err(wrong)?;
+    let mut steps = Steps::new(args.planning.steps);
+    let mut answer = answer(&case, &mut steps).map_err(wrong)?;
+    answer.steps = steps.used();
+    if args.json.json {
+        Screen::json(&answer)?;
+    } else {
+        screen.print(&render::axes::screen(&case.mission, &answer, screen.width()))?;
+    }
+    Ok(exit(answer.status))
+}
+
+/// Refuses options of other missions.
+fn refuse_others(args: &PlanArgs) -> Result<(), Failure> {
+    let planning = &args.planning;
+    let given = [
+        ("--objective", args.objective.is_some()),
+        ("--allocator", planning.allocator.is_some()),
+        ("--lost", !planning.lost.is_empty()),
+        ("--duration-limit", planning.duration_limit.is_some()),
+        ("--energy-limit", planning.energy_limit.is_some()),
+        ("--supervised", planning.supervised.is_some()),
+    ];
+    match given.iter().find(|it| it.1) {
+        None => Ok(()),
+        Some((option, _)) => {
+            let message = format!("{option}: a mission with axes says all of this in its file");
+            Err(Failure::new(message).help(format!("leave {option} out")))
+        }
+    }
+}
+
+/// Plans a case; a limit that is reached is an answer.
+fn answer(case: &Case, steps: &mut Steps) -> Result<AxesAnswer, Wrong> {
+    let mission = &case.mission;
+    let mut answer = AxesAnswer {
+        schema: "cotama/plan-axes/1",
+        mission: mission.name.clone(),
+        activities: Vec::new(),
+        combinations: String::new(),
+        status: Status::Unknown,
+        plan: Vec::new(),
+        speeds_mm_s: Vec::new(),
+        totals: Vec::new(),
+        single: Vec::new(),
+        blame: None,
+        needed: None,
+        correction: Vec::new(),
+        corrections: Vec::new(),
+        steps: 0,
+    };
+    match solve(case, &mut answer, steps) {
+        Ok(()) | Err(Stop::Limit) => Ok(answer),
+        Err(Stop::Wrong(wrong)) => Err(wrong),
+    }
+}
+
+fn solve(case: &Case, answer: &mut AxesAnswer, steps: &mut Steps) -> Result<(), Stop> {
+    let mission = &case.mission;
+    let table = Table::new(mission, Lifted::default(), steps)?;
+    for (number, it) in table.activities.iter().enumerate() {
+        answer.activities.push(activity_row(mission, number, it)?);
+    }
+    let combinations = table.combinations();
+    answer.combinations =
+        combinations.map_or_else(|| "more than 2^128".into(), |it| it.to_string());
+    let problem = Problem::new(mission, &table, Lifted::default());
+    if let Some(plan) = problem.best(&case.ask, steps)? {
+        answer.status = Status::Optimal;
+        fill(answer, mission, &table, &plan);
+        return Ok(());
+    }
+    // That there is none is proven, even if the reasons take too long to find.
+    answer.status = Status::Infeasible;
+    let found = match Infeasible::of(mission, &table, steps) {
+        Err(Stop::Limit) => return Ok(()),
+        found => found?,
+    };
+    let name = |it: usize| mission.constraints.get(it).map_or("", |it| it.id.as_str()).to_owned();
+    let names = |it: &Lifted| it.iter().map(name).collect::<Vec<_>>();
+    answer.corrections = found.corrections.iter().map(names).collect();
+    let lift = |it: &Single| LiftRow {
+        constraint: name(it.constraint),
+        needed: it.needed.iter().flatten().copied().collect(),
+    };
+    answer.single = found.single.iter().map(lift).collect();
+    let Some(blame) = found.blame else {
+        answer.correction = answer.corrections.first().cloned().unwrap_or_default();
+        return Ok(());
+    };
+    answer.blame = Some(name(blame));
+    let goal = mission.constraints.get(blame).map_or(0, |it| it.goal);
+    let single = found.single.iter().find(|it| it.constraint == blame);
+    answer.needed = single.and_then(|it| it.nearest(goal));
+    Ok(())
+}
+
+fn activity_row(
+    mission: &Mission,
+    number: usize,
+    activity: &Activity,
+) -> Result<AxesActivity, Stop> {
+    let objective = mission.objectives.get(activity.objective);
+    let speed_max_mm_s = activity.speed_max_mm_s();
+    let fastest = activity.candidates.iter().find(|it| it.speed_mm_s == speed_max_mm_s);
+    let bounds = fastest.map(|it| why(mission, activity, it)).transpose()?.unwrap_or_default();
+    let dropped = |it: &cotama_axes::Dropped| DroppedRow {
+        options: label(mission, &it.options),
+        by: it.by.iter().map(|it| it.name(mission)).collect(),
+    };
+    Ok(AxesActivity {
+        id: format!("A{}", number + 1),
+        objective: objective.map_or_else(String::new, |it| it.id.clone()),
+        x_start_mm: activity.x_start_mm,
+        x_end_mm: activity.x_end_mm,
+        candidates: activity.candidates.len() as u64,
+        candidates_before: activity.before() as u64,
+        speed_max_mm_s,
+        bounded_by: bounds.into_iter().map(|it| bound_row(mission, it)).collect(),
+        dropped: activity.dropped.iter().map(dropped).collect(),
+    })
+}
+
+fn bound_row(mission: &Mission, bound: Binding) -> BoundRow {
+    let constraint = mission.constraints.get(bound.constraint);
+    let inducer = |Cause { name, value, of }| InducerRow { name, value, of };
+    BoundRow {
+        constraint: constraint.map_or_else(String::new, |it| it.id.clone()),
+        value: bound.value,
+        value_next: bound.value_next,
+        goal: bound.goal,
+        inducers: bound.inducers.into_iter().map(inducer).collect(),
+    }
+}
+
+fn fill(answer: &mut AxesAnswer, mission: &Mission, table: &Table, plan: &Plan) {
+    let rows = table.activities.iter().zip(&plan.choices);
+    for candidate in rows.filter_map(|(it, &choice)| it.candidates.get(choice)) {
+        answer.plan.push(label(mission, &candidate.options));
+        answer.speeds_mm_s.push(candidate.speed_mm_s);
+    }
+    let sums = mission.indicators.iter().zip(&plan.totals).filter(|it| it.0.adds_up);
+    answer.totals = sums
+        .map(|(it, &value)| TotalRow { indicator: it.id.clone(), unit: it.unit.clone(), value })
+        .collect();
+}
