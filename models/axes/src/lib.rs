@@ -35,6 +35,7 @@ mod read;
 pub mod rule;
 mod search;
 mod steps;
+mod surrogate;
 mod table;
 mod toml_text;
 mod tree;

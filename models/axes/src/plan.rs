@@ -4,6 +4,7 @@
 use crate::mission::{Ask, Constraint, Kind, Lifted, Mission, Relation, Sense};
 use crate::search::{Column, FREE, Found, undominated, within_width};
 use crate::steps::{Steps, Stop};
+use crate::surrogate::surrogate;
 use crate::table::Table;
 use std::collections::BTreeMap;
 
@@ -11,7 +12,7 @@ use std::collections::BTreeMap;
 const MOST_WEIGHT: i128 = 600_000_000_000_000_000;
 
 /// States that searches go on with after each activity, one search after the other.
-const WIDTHS: [usize; 4] = [1 << 8, 1 << 12, 1 << 16, usize::MAX];
+const WIDTHS: [usize; 5] = [1 << 5, 1 << 9, 1 << 12, 1 << 16, usize::MAX];
 
 /// A plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -166,7 +167,16 @@ impl<'m> Problem<'m> {
         let counts = self.counts();
         let mut best: Option<Found> = None;
         for width in WIDTHS {
-            let (found, was_cut) = within_width(columns, &counts, width, steps)?;
+            let mut all = Vec::new();
+            // A bound on what is wanted itself is as good as all weights.
+            if width > WIDTHS[0] && bound == 0 {
+                let most = best.as_ref().and_then(|it| it.0.first()).map(|it| it - 1);
+                all.extend(surrogate(columns, &counts, most));
+            }
+            let is_guided = !all.is_empty();
+            all.extend_from_slice(columns);
+            let width = (width, is_guided);
+            let (found, was_cut) = within_width(&all, &counts, width, steps)?;
             let found = found.into_iter().next();
             let value = found.as_ref().and_then(|it| it.0.first().copied());
             let is_done = found.is_some() && value.is_none_or(|it| it <= bound);

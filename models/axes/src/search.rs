@@ -49,15 +49,16 @@ pub(crate) fn undominated(
     counts: &[usize],
     steps: &mut Steps,
 ) -> Result<Vec<Found>, Stop> {
-    Ok(within_width(columns, counts, usize::MAX, steps)?.0)
+    Ok(within_width(columns, counts, (usize::MAX, false), steps)?.0)
 }
 
 /// Returns the same of a search that goes on with at most so many states after each activity, and
-/// whether there were more: then nothing is proven.
+/// whether there were more: then nothing is proven. Where the first column guides, half of them are
+/// those with the least there.
 pub(crate) fn within_width(
     columns: &[Column],
     counts: &[usize],
-    most: usize,
+    (most, is_guided): (usize, bool),
     steps: &mut Steps,
 ) -> Result<(Vec<Found>, bool), Stop> {
     let mut was_cut = false;
@@ -91,7 +92,9 @@ pub(crate) fn within_width(
         (rows, own) = sifted(width, &fresh, &origins, steps)?;
         if own.len() > most {
             // Rows are in rising order: evenly taken, they differ much.
-            let taken: Vec<_> = (0..most).map(|it| it * own.len() / most).collect();
+            let half = if is_guided { most / 2 } else { 0 };
+            let step = |it: usize| half + it * (own.len() - half) / (most - half);
+            let taken: Vec<_> = (0..half).chain((0..most - half).map(step)).collect();
             let row = |it: &usize| rows.get(it * width..(it + 1) * width).unwrap_or(&[]).to_vec();
             rows = taken.iter().flat_map(row).collect();
             own = taken.iter().filter_map(|&it| own.get(it).copied()).collect();
