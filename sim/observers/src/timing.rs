@@ -215,14 +215,16 @@ mod tests {
     }
 
     #[test]
-    fn intervals_alarm_as_often_as_promised_at_an_end() {
-        let mut noise = Streams::new(3).stream("noise");
-        let interval = Interval::new([-1.0, 2.0], 0.5, Millis(100), often()).unwrap();
-        let mut measured = Measured::of(often().per_decision(Millis(100)));
-        for _ in 0..200_000 {
-            measured.decision(interval.observe(Some(2.0 + 0.5 * normal(&mut noise))));
+    fn intervals_alarm_as_often_as_promised_at_both_ends() {
+        for end in [-1.0, 2.0] {
+            let mut noise = Streams::new(3).stream("noise");
+            let interval = Interval::new([-1.0, 2.0], 0.5, Millis(100), often()).unwrap();
+            let mut measured = Measured::of(often().per_decision(Millis(100)));
+            for _ in 0..200_000 {
+                measured.decision(interval.observe(Some(end + 0.5 * normal(&mut noise))));
+            }
+            measured.is_as_promised("interval");
         }
-        measured.is_as_promised("interval");
     }
 
     #[test]
