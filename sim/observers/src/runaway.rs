@@ -74,3 +74,33 @@ impl Runaway {
         Flag::raised_if(self.run.is_long())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns whether the flag is up after each speed, told and measured, a tenth of a second
+    /// apart.
+    fn raised(speeds: &[[f64; 2]]) -> Vec<bool> {
+        let promise = FalseAlarms::per_hour(0.01).unwrap();
+        let mut runaway = Runaway::new(0.3, 0.01, Millis(100), promise).unwrap();
+        let each = speeds.iter().zip(0..);
+        let sensed = each.map(|(value, it)| Sensed { taken: Millis(it * 100), value: *value });
+        sensed.map(|it| runaway.observe(Some(it)) == Flag::Raised).collect()
+    }
+
+    /// From 0.6 m/s at 0.3 m/s²: two seconds.
+    #[test]
+    fn a_robot_that_brakes_as_it_can_does_not_run_away() {
+        let brakes = (0..20).map(|it| [0.0, 0.6 - 0.03 * f64::from(it)]);
+        let speeds: Vec<_> = [[0.6, 0.6]].into_iter().chain(brakes).collect();
+        assert!(raised(&speeds).iter().all(|it| !it));
+    }
+
+    #[test]
+    fn a_robot_that_brakes_half_as_hard_runs_away() {
+        let brakes = (0..20).map(|it| [0.0, 0.6 - 0.015 * f64::from(it)]);
+        let speeds: Vec<_> = [[0.6, 0.6]].into_iter().chain(brakes).collect();
+        assert_eq!(raised(&speeds).iter().position(|it| *it), Some(8));
+    }
+}

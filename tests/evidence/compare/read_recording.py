@@ -61,8 +61,8 @@ def times_of(trace):
             times["/supervisors/" + record["net"]].append(at)
         elif kind in ("failure", "diagnosis"):
             times["/diagnostics"].append(at)
-        elif kind == "configuration":
-            times["/configuration"].append(at)
+        elif kind in ("configuration", "status"):
+            times["/" + kind].append(at)
     for topic in AT_POSES:
         times[topic] = [it["t_us"] * 1000 for it in trace["poses"]]
     for topic in ["/map", "/path", "/tf_static"]:
