@@ -93,3 +93,17 @@ fn a_sonar_takes_the_likeliest_place_on_its_arc() {
     let found = likelihood(Model::Beam, &cone, turned, &[2.95]);
     assert_near(found, 1.0 + cube(0.5 + 0.5 / 8.0));
 }
+
+/// A robot that looks west: headings of its particles lie on both sides of half a turn.
+#[test]
+fn headings_on_both_sides_of_half_a_turn_are_as_sure_as_others() {
+    let chart = Chart::new(&hall(), 0.1, &ray(), &Parameters::default()).unwrap();
+    let sure = Matrix3::from_diagonal(&nalgebra::Vector3::new(0.0, 0.0, 0.01));
+    let deviation = |heading: f64| {
+        let mut localiser = Localiser::new(&chart, &Streams::new(1), "robot");
+        localiser.start_at(&start(heading), &sure).unwrap();
+        localiser.estimate().covariance[(2, 2)].sqrt()
+    };
+    let [east, west] = [0.0, PI].map(deviation);
+    assert!((0.05..0.15).contains(&east) && (0.05..0.15).contains(&west), "{east} {west}");
+}

@@ -5,10 +5,11 @@ mod common;
 
 use common::{Robot, braking, clutter, drivetrain, hall, place};
 use core::f64::consts::PI;
-use cotama_floor::Point;
+use cotama_core::units::Millis;
+use cotama_floor::{Point, Pose};
 use cotama_navigation::{
     Braking, Choice, DynamicWindow, Histogram, Limits, LocalMap, Patience, Progress, Retreat,
-    Thresholds, Weights,
+    Thresholds, Weights, Work,
 };
 use cotama_plane::Command;
 use proptest::prelude::*;
@@ -102,6 +103,22 @@ fn a_robot_that_believes_in_better_brakes_touches() {
         robot.vehicle.touches()
     });
     assert!(touches, "{}", robot.at());
+}
+
+#[test]
+fn a_robot_that_stands_has_the_room_beyond_its_radius_and_margin() {
+    let mut braking = braking(&drivetrain(0.4));
+    let own = braking.radius_m + braking.margin_m;
+    assert!(braking.margin_m > 0.0);
+    let mut room = |ahead: f64| {
+        let mut map = LocalMap::new(10, Millis(1_000));
+        map.take_scan(&Pose::identity(), 0.1, &[ahead]);
+        let (stands, mut work) = (Command::default(), Work::default());
+        braking.look(stands, &map, &mut work);
+        braking.room(stands, stands, &mut work)
+    };
+    assert!((room(own + 0.005).unwrap() - 0.005).abs() < 1e-9);
+    assert_eq!(room(own - 0.01), None);
 }
 
 #[test]

@@ -101,6 +101,6 @@ mod tests {
     fn a_robot_that_brakes_half_as_hard_runs_away() {
         let brakes = (0..20).map(|it| [0.0, 0.6 - 0.015 * f64::from(it)]);
         let speeds: Vec<_> = [[0.6, 0.6]].into_iter().chain(brakes).collect();
-        assert_eq!(raised(&speeds).iter().position(|it| *it), Some(8));
+        assert_eq!(raised(&speeds).iter().position(|it| *it), Some(6));
     }
 }
