@@ -132,7 +132,8 @@ fn folder_of(package: &str) -> Result<String, String> {
         "robot" => "firmware/robot",
         _ => package.strip_prefix("cotama-").ok_or_else(|| format!("no package {package}"))?,
     };
-    let mut folders = ["", "core/", "verification/", "sim/"].iter().map(|it| format!("{it}{name}"));
+    let faces = ["", "core/", "models/", "verification/", "sim/"];
+    let mut folders = faces.iter().map(|it| format!("{it}{name}"));
     let found = folders.find(|it| root().join(it).join("Cargo.toml").is_file());
     found.ok_or_else(|| format!("no package {package}"))
 }
