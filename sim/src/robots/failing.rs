@@ -31,6 +31,8 @@ pub(crate) struct Failures {
     pub(crate) period: Millis,
     /// The losses of parts, for the parts that were asked of last.
     pub(crate) losses: Option<(Parts, u32)>,
+    /// The modules that can be used, likewise.
+    pub(crate) works: Option<(Parts, u64)>,
     /// The longest time that one was to be seen, beyond its latency, and was not.
     pub(crate) unseen: Millis,
     /// The flags that are up by signals of the robot; `None` where all flags are told.
@@ -242,6 +244,19 @@ impl Failures {
         self.open(robot).fold(Parts::NONE, |all, it| all.union(it.1.loses))
     }
 
+    /// Returns the modules that can be used with what is broken, known or not.
+    pub(crate) fn works(&mut self, robot: &Robot) -> u64 {
+        let broken = self.broken(robot);
+        match self.works {
+            Some((of, works)) if of == broken => works,
+            _ => {
+                let works = robot.available(broken);
+                self.works = Some((broken, works));
+                works
+            }
+        }
+    }
+
     /// Returns the losses of which something is broken, known or not, a bit each.
     pub(crate) fn broken_losses(&mut self, robot: &Robot, tables: &Tables<'_>) -> u32 {
         if self.signals.is_some() {
@@ -306,6 +321,9 @@ impl Failures {
 
     /// Observers look for a period; returns the failures that are seen from now on.
     pub(crate) fn look(&mut self, robot: &Robot, place: Where) -> Vec<usize> {
+        if self.all.iter().all(|it| it.over || it.found) {
+            return Vec::new();
+        }
         let (watched, period) = (self.watched(robot), self.period.0);
         let mut seen = Vec::new();
         for (at, (it, is_watched)) in self.all.iter_mut().zip(watched).enumerate() {

@@ -111,7 +111,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             && let Some(required) = self.robot.configurations.get(configuration)
         {
             let lacks = |lost: Parts| required.required & !self.robot.available(lost) != 0;
-            if !self.failures.all.is_empty() && lacks(self.failures.broken(self.robot)) {
+            if required.required & !self.failures.works(self.robot) != 0 {
                 for (it, conduct) in self.failures.all.iter().zip(&mut self.run.conduct) {
                     let row = self.robot.failures.get(it.number);
                     if !it.over && row.is_some_and(|it| lacks(it.loses)) {
