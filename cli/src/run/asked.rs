@@ -13,7 +13,7 @@ use cotama_models::robots::{Answer, Incident, IncidentKind, Mode, Moment, Robot}
 use cotama_sim::options::{FaultChoice, Options};
 use cotama_sim::trace::{Record, Request, Trace};
 
-/// How long an answer takes, as long as those of the simulated operator.
+/// Time of an answer, as long as those of the simulated operator.
 const ANSWERS_AFTER: Millis = Millis(8_000);
 /// The most requests of a run that are put to a person.
 const MOST: usize = 1_000;

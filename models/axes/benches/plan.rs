@@ -1,4 +1,4 @@
-//! How long the patrol with five limited axes takes: read and its table made, planned exactly,
+//! Time of the patrol with five limited axes: read and its table made, planned exactly,
 //! fronts, and least corrections where it has no plan.
 //!
 //! `cargo bench -p cotama-axes --bench plan`; with any argument of its own it runs briefly.

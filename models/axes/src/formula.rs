@@ -102,7 +102,7 @@ impl Formula {
         &self.text
     }
 
-    /// How many operations, numbers and inducers the formula has.
+    /// Number of operations, numbers and inducers that the formula has.
     pub(crate) fn size(&self) -> u64 {
         self.root.size()
     }

@@ -60,7 +60,7 @@ pub enum DetectBy {
 pub struct Hardware {
     /// Name of the kind.
     pub id: String,
-    /// How many the robot has.
+    /// Number that the robot has.
     pub units: i64,
     /// Attributes of one unit.
     pub attributes: Attributes,
@@ -94,9 +94,9 @@ impl Tio {
 pub struct Objective {
     /// Name of the objective.
     pub id: String,
-    /// Where it begins on the path, mm.
+    /// The begin on the path, mm.
     pub x_start_mm: i64,
-    /// Where it ends; there where it begins if the robot stands.
+    /// The end; the begin if the robot stands.
     pub x_end_mm: i64,
     /// For each of its tasks the options, by index.
     pub tasks: Vec<Vec<usize>>,
@@ -107,9 +107,9 @@ pub struct Objective {
 pub struct Zone {
     /// Name of the zone.
     pub id: String,
-    /// Where it begins, mm.
+    /// The begin, mm.
     pub x_start_mm: i64,
-    /// Where it ends, mm.
+    /// The end, mm.
     pub x_end_mm: i64,
     /// Kinds of hardware that see no obstacles here, by index.
     pub blind: Vec<usize>,
@@ -163,7 +163,7 @@ pub struct Constraint {
     pub indicator: usize,
     /// When it must hold.
     pub kind: Kind,
-    /// How the value stands to the goal.
+    /// Relation of the value to the goal.
     pub relation: Relation,
     /// The goal, in the unit of the indicator.
     pub goal: i64,
@@ -206,7 +206,7 @@ impl Kind {
     }
 }
 
-/// How a value must stand to a goal (Section 6.1.3).
+/// Relation that a value must have to a goal (Section 6.1.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {
     /// `<`

@@ -39,7 +39,7 @@ impl Steps {
         Self { left, used: 0 }
     }
 
-    /// How many were used.
+    /// Number that were used.
     pub const fn used(&self) -> u64 {
         self.used
     }

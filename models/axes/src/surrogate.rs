@@ -40,7 +40,7 @@ impl<'c> Limited<'c> {
         Self { column, least, range: most - sum, room: limit - sum, unit: 0, parts: 0 }
     }
 
-    /// How much a candidate is above the least of its activity.
+    /// Amount by which a candidate is above the least of its activity.
     fn above(&self, activity: usize, choice: usize) -> i128 {
         let value = self.column.values.get(activity).and_then(|it| it.get(choice));
         let least = self.least.get(activity).copied().unwrap_or(0);

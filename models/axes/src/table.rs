@@ -26,9 +26,9 @@ pub struct Table {
 pub struct Activity {
     /// The objective, by index.
     pub objective: usize,
-    /// Where it begins, mm.
+    /// The begin, mm.
     pub x_start_mm: i64,
-    /// Where it ends, mm.
+    /// The end, mm.
     pub x_end_mm: i64,
     /// The zones that cover it, by index; none if the robot stands.
     pub zones: Vec<usize>,
@@ -138,7 +138,7 @@ impl Activity {
         self.x_start_mm < self.x_end_mm
     }
 
-    /// How many combinations there were before constraints.
+    /// Number of combinations before constraints.
     pub const fn before(&self) -> usize {
         self.candidates.len() + self.dropped.len()
     }

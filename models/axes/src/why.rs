@@ -15,7 +15,7 @@ pub struct Binding {
     pub value: i64,
     /// Value at the next speed.
     pub value_next: i64,
-    /// How the value must stand to the goal here.
+    /// Relation that the value must have to the goal here.
     pub relation: Relation,
     /// The goal here.
     pub goal: i64,

@@ -21,7 +21,7 @@ pub struct Course {
     drivetrain: Drivetrain,
     track: Track,
     back: Track,
-    /// How much longer the path is than the mission, in metres.
+    /// Length of the path beyond that of the mission, in metres.
     spare: f64,
     /// The people whom a seed draws, and those who walk as the mission says.
     drawn: Option<(usize, Routes)>,
