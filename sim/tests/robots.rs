@@ -5,7 +5,7 @@ use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, embedded};
 use cotama_models::robots::{Decision, Moment, Motion, RobotFile};
-use cotama_sim::options::{FaultChoice, Options};
+use cotama_sim::options::{FaultChoice, Fidelity, Options};
 use cotama_sim::robots::{Driven, Injection, Run, Script};
 use cotama_sim::run::Outcome;
 use cotama_sim::trace::{Record, Trace, replay};
@@ -309,14 +309,29 @@ fn script() -> impl Strategy<Value = Script> {
     all.prop_map(|injections| Script { injections, ..Script::default() })
 }
 
+/// Runs without a record pass over quiet periods, others do not.
+fn same_with_and_without_a_record(script: &Script, fidelity: Fidelity) {
+    let options = Options { fidelity, ..Options::default() };
+    let ready = Driven::with(&SHIFT, &options).unwrap();
+    let mut records: Vec<Record> = Vec::new();
+    let step_by_step = ready.run_recorded(script, Millis(1_000), &mut records).unwrap();
+    assert_eq!(ready.run(script).unwrap(), step_by_step);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
     #[test]
     fn quiet_periods_that_are_passed_over_change_nothing(script in script()) {
-        let ready = Driven::new(&SHIFT).unwrap();
-        let mut records: Vec<Record> = Vec::new();
-        let step_by_step = ready.run_recorded(&script, Millis(1_000), &mut records).unwrap();
-        prop_assert_eq!(ready.run(&script).unwrap(), step_by_step);
+        same_with_and_without_a_record(&script, Fidelity::Line);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    #[test]
+    fn quiet_periods_that_are_passed_over_in_the_plane_change_nothing(script in script()) {
+        same_with_and_without_a_record(&script, Fidelity::Plane);
     }
 }

@@ -254,6 +254,11 @@ impl<'c> Rover<'c> {
         self.people.as_ref().map_or(&[], People::now)
     }
 
+    /// Whether nobody walks and no door moves on its floor, and it knows its pose.
+    pub const fn is_alone(&self) -> bool {
+        self.people.is_none() && self.doors.is_none() && self.belief.is_none()
+    }
+
     /// Returns how far it would still go if it braked now.
     pub fn braking_distance(&self) -> Millimetres {
         let speed = self.vehicle.speeds().speed;

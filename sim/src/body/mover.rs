@@ -171,6 +171,11 @@ impl<'c> Mover<'c> {
         }
     }
 
+    /// Whether it is in the plane, all is told, and nothing on its floor moves.
+    pub(crate) fn is_alone(&self) -> bool {
+        matches!(self, Self::Plane(it) if it.is_alone())
+    }
+
     /// Whether it ran against something.
     pub(crate) fn touches(&self) -> bool {
         self.rover().is_some_and(Rover::touches)

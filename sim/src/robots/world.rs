@@ -198,12 +198,12 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         loop {
             self.step(&mut recording);
             self.record_progress(&mut recording);
+            if !R::WANTED && self.end().is_none() {
+                self.pass_over();
+            }
             if let Some(outcome) = self.end() {
                 self.run.outcome = outcome;
                 break;
-            }
-            if !R::WANTED {
-                self.pass_over();
             }
         }
         self.record_end(&mut recording);
@@ -254,7 +254,10 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
         let met = self.meet(recording);
         let is_even =
             |(now, before): (&Drive, Drive)| now.is_steady_since(&before, self.body.period);
-        self.calm &= self.drive.line().zip(before).is_some_and(is_even);
+        self.calm &= match self.drive.line().zip(before) {
+            Some(lines) => is_even(lines),
+            None => self.drive.is_alone() && !met,
+        };
         if self.failures.thinks(self.robot) {
             self.observe(recording);
             self.see(self.now);

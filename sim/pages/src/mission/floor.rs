@@ -71,9 +71,10 @@ pub(super) fn section(view: &View<'_>) -> String {
         (None, None) => return String::new(),
     };
     let note = format!(
-        "{name}, {} from place to place. The slider moves the robot through the run; numbers are \
+        "{name}, {} from place to place{}. The slider moves the robot through the run; numbers are \
          points of the story.",
-        in_metres(way.length().0)
+        in_metres(way.length().0),
+        longer(view, way)
     );
     let player = Player {
         class: "onfloor",
@@ -86,6 +87,18 @@ pub(super) fn section(view: &View<'_>) -> String {
         script: include_str!("floor.js"),
     };
     player.section()
+}
+
+/// Says why corridors are longer than the path of the mission, where they are.
+fn longer(view: &View<'_>, way: &Way) -> String {
+    let path = view.mission.as_ref().map_or(0, |it| it.path_length.0);
+    match way.length().0.checked_sub(path).filter(|more| path > 0 && *more > 0) {
+        None => String::new(),
+        Some(more) => {
+            let (path, more) = (in_metres(path), in_metres(more));
+            format!(": {path} of the mission and {more} that wrong positions add to its path")
+        }
+    }
 }
 
 /// A corner of the way, with the length along it.

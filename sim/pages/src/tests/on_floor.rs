@@ -8,7 +8,7 @@ use cotama_models::missions::{Asked, Mission};
 use cotama_models::robots::RobotFile;
 use cotama_sim::fleet;
 use cotama_sim::fleet::scenarios::{ServiceOptions, service};
-use cotama_sim::options::Options;
+use cotama_sim::options::{Fidelity, Options};
 use cotama_sim::trace::Trace;
 
 /// A drive from the dock to an office, with a failure on the way.
@@ -47,6 +47,18 @@ fn a_robot_moves_from_the_first_corner_of_the_way_to_the_last() {
     let ends = [&way[way.len() - 1][0], &samples[samples.len() - 1][1]];
     assert_eq!(ends.map(serde_json::Value::as_u64), [Some(14_507); 2]);
     assert!(rows("runs").iter().any(|it| it[1] == "Follow.Low"));
+}
+
+#[test]
+fn corridors_that_are_longer_than_the_mission_say_what_makes_them_so() {
+    let patrol = cotama_models::missions::embedded::mission("patrol").unwrap();
+    let robot = RobotFile::shipped("p3dx-patrol");
+    let mission = Mission::parse_on(patrol.name, patrol.text, robot, None).unwrap();
+    let options = Options { fidelity: Fidelity::Plane, ..Options::default() };
+    let page = html(&Trace::record(&mission, &options).unwrap().0).replace('\u{a0}', " ");
+    let words =
+        "191.1 m from place to place: 187.0 m of the mission and 4.1 m that wrong positions";
+    assert!(page.contains(words));
 }
 
 #[test]

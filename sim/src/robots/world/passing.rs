@@ -1,7 +1,6 @@
-//! Passing over periods in which nothing happens.
+//! Passing over periods in which nothing happens: the robot moves, and nobody has to look.
 
 use super::World;
-use crate::body::Drive;
 use crate::robots::failing::{mode, moves};
 use crate::run::LONGEST;
 use cotama_core::player::Program;
@@ -12,14 +11,13 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// Passes over periods in which nothing happens, up to the next second, in which margins are
     /// looked at.
     pub(super) fn pass_over(&mut self) {
-        let Some(line) = self.drive.line().copied() else { return };
         let busy = !self.calm || !self.decider.listens() || self.level().player().round_is_due();
         let held = self.hindered.waits() || self.drive.owed() > Millimetres(0);
         if busy
             || held
             || self.looks_at_margins()
             || !self.failures.thinks(self.robot)
-            || !self.is_steady(line)
+            || !self.goes_undisturbed()
         {
             return;
         }
@@ -44,7 +42,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         let activities = &self.mission.scenario().activities;
         let borders = activities.iter().flat_map(|it| [it.x_start, it.x_end]);
         for border in borders.chain(self.hindered.next()).filter(|it| *it > self.drive.x()) {
-            most = most.min(line.times_before(border, self.body.period).unwrap_or(0));
+            most = most.min(self.periods_before_place(border));
         }
         let waits = match self.global {
             Global::Does(_) if self.objective_stands() => {
@@ -67,27 +65,58 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
         if most == 0 {
             return;
         }
-        let power = self.power(self.drive.speed().0 > 0);
-        let power = self.hindered.real(self.mission, self.drive.x(), power);
-        if let Some(line) = self.drive.line_mut() {
-            line.glide(most, self.body.period);
-        }
-        self.failures.look_on(self.robot, self.place, most);
-        self.energy_uj = self
-            .energy_uj
-            .saturating_add(power.0.saturating_mul(self.body.period.0).saturating_mul(most));
-        self.exposed_on(most);
-        self.now.0 += self.body.period.0 * most;
-        self.run.rounds += most;
+        let passed = if self.drive.line().is_some() { self.glide(most) } else { self.drive(most) };
+        self.failures.look_on(self.robot, self.place, passed);
+        self.run.rounds += passed;
         let last = Millis(self.now.0.saturating_sub(self.body.period.0));
         self.see(last);
     }
 
-    /// Whether the robot would go on at its speed for a period.
-    fn is_steady(&self, line: Drive) -> bool {
-        let mut next = line;
+    /// Goes on evenly along a line for so many periods.
+    fn glide(&mut self, periods: u64) -> u64 {
+        let power = self.power(self.drive.speed().0 > 0);
+        let power = self.hindered.real(self.mission, self.drive.x(), power);
+        if let Some(line) = self.drive.line_mut() {
+            line.glide(periods, self.body.period);
+        }
+        let energy = power.0.saturating_mul(self.body.period.0).saturating_mul(periods);
+        self.energy_uj = self.energy_uj.saturating_add(energy);
+        self.exposed_on(periods);
+        self.now.0 += self.body.period.0 * periods;
+        periods
+    }
+
+    /// Drives in the plane for so many periods, or until it touches something; returns how many.
+    fn drive(&mut self, periods: u64) -> u64 {
+        for passed in 1..=periods {
+            self.travel();
+            self.now.0 += self.body.period.0;
+            if self.run.touched.is_some() {
+                return passed;
+            }
+        }
+        periods
+    }
+
+    /// Whether the robot would go on at its speed on a line for a period; in the plane, whether
+    /// nothing but itself moves.
+    fn goes_undisturbed(&self) -> bool {
+        let Some(mut next) = self.drive.line().copied() else {
+            return self.drive.is_alone() && self.doors.is_empty();
+        };
+        let speed = next.speed();
         self.failures.go(self.robot, self.now, &self.demand(), &mut next);
-        next.speed() == line.speed()
+        next.speed() == speed
+    }
+
+    /// Returns in how many periods the robot is still before a place for certain. In the plane it
+    /// may cut a corner of its path: so it counts as four times as fast as its body can be.
+    fn periods_before_place(&self, place: Millimetres) -> u64 {
+        if let Some(line) = self.drive.line() {
+            return line.times_before(place, self.body.period).unwrap_or(0);
+        }
+        let most = 4 * self.body.speed_max.0 * self.body.period.0 / 1_000 + 1;
+        place.0.saturating_sub(self.drive.x().0 + 1) / most
     }
 
     /// The exposures of the last period go on for so many.
@@ -109,9 +138,7 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
             return 0;
         }
         match when {
-            Moment::Place(x) => {
-                self.drive.line().and_then(|it| it.times_before(x, self.body.period)).unwrap_or(0)
-            }
+            Moment::Place(x) => self.periods_before_place(x),
             Moment::At(at) => until(at.0),
             Moment::During(place, after) => since(Some(place), after),
             Moment::Waiting(after) => since(None, after),
