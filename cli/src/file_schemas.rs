@@ -15,8 +15,8 @@ pub(crate) use robot::robot as robot_file;
 use cotama_core::hardware::{MAX_KINDS, MAX_UNITS};
 use cotama_models::missions::faults::{self, Adapts, FIDELITIES, OUTCOMES};
 use cotama_models::missions::known::{
-    ALLOCATORS, AT_LEAST_ZERO, COUNTS, ENERGIES, EVENTS, NAME_LENGTHS, NEEDED_UNITS, OBJECTIVES,
-    PEOPLE, PERIODS, POSITIVE, QUALITIES, ROUNDINGS, SEARCHES, SPEEDS, UNITS,
+    ALLOCATORS, AT_LEAST_ZERO, CLEARANCE_MM, COUNTS, ENERGIES, EVENTS, NAME_LENGTHS, NEEDED_UNITS,
+    OBJECTIVES, PEOPLE, PERIODS, POSITIVE, QUALITIES, ROUNDINGS, SEARCHES, SPEEDS, UNITS,
 };
 use cotama_models::missions::{self, AXES};
 use parts::{
@@ -26,6 +26,8 @@ use parts::{
 use serde_json::{Value, json};
 
 const DRAFT: &str = "http://json-schema.org/draft-07/schema#";
+
+const CLEARANCE: &str = "beside `floor`: room that the path keeps beyond the robot's radius, in mm";
 
 /// The schema of a mission file: that of a robot with a file, or of a plain mission.
 pub(crate) fn mission() -> Value {
@@ -53,6 +55,7 @@ fn mission_of_robot() -> Value {
         ("from", text("beside `floor`: the place at which the mission starts, or X,Y in mm")),
         ("open", names("beside `floor`: doors that are open")),
         ("close", names("beside `floor`: doors that are closed")),
+        ("clearance_mm", integer(&CLEARANCE_MM, CLEARANCE)),
         ("people", integer(&PEOPLE, "beside `floor`: how many people the seed draws")),
         ("person", people::person()),
         ("tio", tables(&tio(false), 0, "ways to do a task for which the robot stands")),
@@ -73,7 +76,7 @@ fn mission_of_robot() -> Value {
         },
     });
     let on_floor = both(&on_floor, &absent(&["path_length_mm"]));
-    let line = both(&line, &absent(&["from", "open", "close", "people", "person"]));
+    let line = both(&line, &absent(&["from", "open", "close", "clearance_mm", "people", "person"]));
     let rule = json!({ "if": { "required": ["floor"] }, "then": on_floor, "else": line });
     with(file, "allOf", json!([rule]))
 }

@@ -90,7 +90,7 @@ pub(crate) fn way(
     screen: Option<&Screen>,
 ) -> Result<Option<Way>, Failure> {
     let radius = robot.and_then(|it| it.robot().body.as_ref()).map(|it| it.radius.0);
-    let needs = radius.map_or(Needs::default(), needs);
+    let needs = radius.map_or(Needs::default(), needs).beyond(asked.clearance);
     let Some((name, text)) = named(&asked.floor, folder)? else { return Ok(None) };
     Ok(Some(read(&name, screen)?.ground().way(&name, &text, asked, needs)))
 }
@@ -178,7 +178,7 @@ fn found(
         open: args.open.clone(),
         close: args.close.clone(),
         zones: all.iter().map(|it| it.name.clone()).collect(),
-        people: Vec::new(),
+        ..Asked::default()
     };
     let way = read.ground().way(&args.floor, "", asked, needs(args.radius));
     way.doors?;

@@ -216,6 +216,10 @@ fn each_mistake_about_a_floor_is_one_message_at_its_place() {
         let has = |it: &str| said.stderr.contains(it);
         assert!(has(message) && has(&format!("rounds.toml:{place}\n")), "{to}\n{}", said.stderr);
     }
+    let too_wide = rounds("from =", "clearance_mm = 300\nfrom =");
+    folder.write("rounds.toml", too_wide);
+    let said = folder.cotama(&["plan", "rounds.toml"]).stderr;
+    assert!(said.contains("nothing leads from `dock` to `office B`"), "{said}");
     let nowhere = rounds(lab, "to = \"office D\"");
     folder.write("rounds.toml", &nowhere);
     let said = folder.cotama(&["plan", "rounds.toml"]).stderr;

@@ -35,6 +35,8 @@ pub const ID_LENGTHS: RangeInclusive<usize> = 1..=crate::names::MAX_ID;
 pub const PEOPLE: RangeInclusive<i64> = 0..=1_000;
 /// Speeds of people in mm/s: up to that of a runner.
 pub const WALKING_SPEEDS: RangeInclusive<i64> = 100..=10_000;
+/// Room beyond the radius of a robot that its path keeps, in mm.
+pub const CLEARANCE_MM: RangeInclusive<i64> = 0..=1_000;
 /// The most people of whom a mission says where they walk.
 pub const MAX_PERSONS: usize = 100;
 /// The most places between which a person walks.

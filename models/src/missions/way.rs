@@ -5,7 +5,7 @@
 //! along its path. [`Asked::of`] reads the names, whoever has the floor plans the [`Way`] between
 //! them, and the reader of missions makes lengths of it: all that follows stays on the path.
 
-use super::known::MAX_PERSONS;
+use super::known::{CLEARANCE_MM, MAX_PERSONS};
 use super::under::second;
 use cotama_core::units::Millimetres;
 use std::ops::Range;
@@ -43,6 +43,8 @@ pub struct Asked {
     pub zones: Vec<String>,
     /// The places between which each person walks.
     pub people: Vec<Vec<String>>,
+    /// Room that the path keeps beyond the radius of the robot.
+    pub clearance: Millimetres,
 }
 
 impl Asked {
@@ -58,6 +60,8 @@ impl Asked {
             all.filter_map(|it| it.as_str().map(str::to_owned)).collect::<Vec<_>>()
         };
         let words = |key: &str| words_of(&file, key);
+        let clearance = file.get("clearance_mm").and_then(toml::Value::as_integer);
+        let clearance = clearance.filter(|it| CLEARANCE_MM.contains(it)).unwrap_or(0);
         let tables = |key: &str| {
             let all = file.get(key).and_then(|it| it.as_array());
             all.into_iter().flatten().filter_map(|it| it.as_table())
@@ -74,6 +78,7 @@ impl Asked {
                 .filter_map(|it| word(it, "on_floor").or_else(|| word(it, "id")))
                 .collect(),
             people: tables("person").take(MAX_PERSONS).map(|it| words_of(it, "walks")).collect(),
+            clearance: Millimetres(clearance.unsigned_abs()),
         })
     }
 }

@@ -7,6 +7,7 @@ use crate::field::{Field, FieldError, Measure};
 use crate::geometry::Point;
 use crate::path::Path;
 use crate::surface::Surface;
+use cotama_core::units::Millimetres;
 
 /// The robot for which a way is planned, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +24,14 @@ impl Default for Needs {
     /// A Pioneer 3-DX turns in a disc of 0.26 m (its manual, appendix B); cells of 0.05 m.
     fn default() -> Self {
         Self { radius_m: 0.26, liked_m: 0.6, cell_m: 0.05 }
+    }
+}
+
+impl Needs {
+    /// The same with so much more room than the radius.
+    #[must_use]
+    pub fn beyond(self, clearance: Millimetres) -> Self {
+        Self { radius_m: self.radius_m + clearance.0 as f64 / 1_000.0, ..self }
     }
 }
 

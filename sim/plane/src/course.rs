@@ -66,14 +66,13 @@ impl std::error::Error for NoCourse {}
 /// would. A leg is as long for the mission as it was: lengths along it are in proportion.
 fn around(way: Way, surface: &dyn Surface, drivetrain: &Drivetrain) -> Way {
     let radius_m = drivetrain.footprint.radius() + SPARE;
+    let needs = Needs { radius_m, ..Needs::default() }.beyond(way.asked.clearance);
     let mut planner = None;
     let mut led = |leg: Leg| {
         if is_free(&leg.points, surface, drivetrain) {
             return leg;
         }
-        let planner = planner.get_or_insert_with(|| {
-            Planner::new(surface, Needs { radius_m, ..Needs::default() }).ok()
-        });
+        let planner = planner.get_or_insert_with(|| Planner::new(surface, needs).ok());
         let ends = leg.points.first().zip(leg.points.last());
         let route = planner
             .as_ref()

@@ -103,7 +103,8 @@ impl Doors {
         let door = self.known.doors.get(door)?;
         let leaf = door.leaf(door.is_open);
         let radius_m = course.drivetrain().footprint.radius() + crate::drivetrain::SPARE - ROUNDED;
-        let needs = Needs { radius_m, ..Needs::default() };
+        let clearance = course.way().asked.clearance;
+        let needs = Needs { radius_m, ..Needs::default() }.beyond(clearance);
         let charted = drawn(&self.known, Version::Charted)?;
         let real = drawn(&self.known, Version::Real)?;
         let planners = [&charted, &real].map(|it| Planner::new(it.surface(), needs).ok());

@@ -64,8 +64,9 @@ const NEAR_BEYOND_M: f64 = 0.3;
 const TILE_M: f64 = 10.0;
 /// Spells in which a scan sees nothing, or does not match the map, that a survey notes, in s.
 const SCAN_BEYOND_S: f64 = 0.3;
-/// Times in which ranges jump that a survey notes, in seconds.
-const JUMPY_BEYOND_S: f64 = 0.2;
+/// Times in which ranges jump that a survey notes, in seconds: shorter ones are edges that pass,
+/// and longer ones, along rows of things, have a tail of their own.
+const JUMPY_BEYOND_S: f64 = 1.0;
 /// The longest survey.
 const LONGEST: Millis = Millis(3_600_000);
 

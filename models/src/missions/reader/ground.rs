@@ -4,6 +4,7 @@ use super::entry::Entry;
 use super::fields::Fields;
 use crate::missions::definition::Zone;
 use crate::missions::diagnostic::{Diagnostic, Spanned};
+use crate::missions::known::CLEARANCE_MM;
 use crate::missions::way::{Leg, NoLeg, Refusal, Way};
 use cotama_core::units::Millimetres;
 
@@ -26,11 +27,12 @@ impl<'w> Ground<'w> {
     /// Reads what a mission says of its floor; `None` where it names none.
     pub(super) fn of(root: &mut Fields<'_>, way: Option<&'w Way>) -> Option<Self> {
         let Ok(Some(floor)) = root.optional_text("floor") else {
-            without_floor(root, &["from", "open", "close"]);
+            without_floor(root, &["from", "open", "close", "clearance_mm"]);
             return None;
         };
         let from = root.text("from");
         let _ = (root.optional_texts("open"), root.optional_texts("close"));
+        let _ = root.optional_integer::<u64>("clearance_mm", CLEARANCE_MM);
         refuse_lengths(root);
         let Some(way) = way else {
             let message = format!("there is no floor `{}`, and no file of this name", floor.value);

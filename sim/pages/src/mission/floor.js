@@ -26,9 +26,14 @@
       at_y = between(RUN.poses, time, 2);
       turn = heading(time);
     }
+    var now = before(RUN.poses, time), next = Math.min(now + 1, RUN.poses.length - 1);
     Array.prototype.forEach.call(people, function (person, number) {
-      person.setAttribute("cx", between(RUN.poses, time, 4 + 2 * number));
-      person.setAttribute("cy", between(RUN.poses, time, 5 + 2 * number));
+      var x = 4 + 2 * number, here = RUN.poses[now][x] !== undefined;
+      var stays = here && RUN.poses[next][x] === undefined;
+      person.setAttribute("visibility", here ? "visible" : "hidden");
+      if (!here) { return; }
+      person.setAttribute("cx", stays ? RUN.poses[now][x] : between(RUN.poses, time, x));
+      person.setAttribute("cy", stays ? RUN.poses[now][x + 1] : between(RUN.poses, time, x + 1));
     });
     robot.setAttribute("transform", "translate(" + at_x + " " + at_y + ") rotate(" + turn + ")");
     var sample = RUN.samples[before(RUN.samples, time)];

@@ -144,8 +144,8 @@ fn place(corners: &[Corner], x_mm: u64, at: impl Fn([i32; 2]) -> [f64; 2]) -> [f
 }
 
 /// Poses of the robot over time as JSON, each with a turn in degrees clockwise and the places of
-/// the people; with the people, and where it was and
-/// believed to be as lines; empty for a run on a line.
+/// the people; with the people, and where it was and believed to be as lines; empty for a run on a
+/// line.
 fn poses(view: &View<'_>, pixels: &Pixels) -> (String, String) {
     let poses = view.trace.records.iter().filter_map(|it| match it {
         Record::Pose(it) => Some(it),
@@ -180,8 +180,10 @@ fn poses(view: &View<'_>, pixels: &Pixels) -> (String, String) {
          drove</title></polyline>"
     );
     let radius = fixed(PERSON_M * pixels.scale);
-    let person =
-        format!("<circle class=\"person\" r=\"{radius}\"><title>a person</title></circle>");
+    let person = format!(
+        "<circle class=\"person\" visibility=\"hidden\" r=\"{radius}\"><title>a person, or a thing on \
+         no map</title></circle>"
+    );
     let lines = lines + &person.repeat(count);
     (json.join(","), lines)
 }
