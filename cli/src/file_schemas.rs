@@ -339,6 +339,8 @@ fn objective(under_supervisors: bool) -> Value {
 
 fn run() -> Value {
     let period = integer(&PERIODS, "how often margins are looked at, in ms; 1,000");
-    let can = [&[("monitor_period_ms", period)][..], &happenings()].concat();
+    let seed =
+        integer(&AT_LEAST_ZERO, "the seed of random numbers, unless `--seed` says another; 0");
+    let can = [&[("monitor_period_ms", period), ("seed", seed)][..], &happenings()].concat();
     table(&[], &can, "what goes wrong in this mission")
 }

@@ -184,7 +184,7 @@ fn never_left(
 ) -> Result<Exit, Failure> {
     let body = RunBody {
         mission: mission.name.clone(),
-        seed: args.seed,
+        seed: args.seed.unwrap_or(mission.run.seed),
         outcome: Outcome::Safe,
         reason: Some(text),
         infeasible: infeasible::explain(mission, mission.limits, mission.available()),
@@ -230,7 +230,7 @@ fn options(args: &RunArgs, mission: &Mission) -> Result<Options, Failure> {
     let objective = mission::objective(args.objective, allocator, mission);
     let planner = mission::planner(objective, allocator, args.planning.steps)?;
     Ok(Options {
-        seed: args.seed,
+        seed: args.seed.unwrap_or(mission.run.seed),
         faults: faults(&args.faults, &args.planning.lost, mission)?,
         monitor_period: args.monitor_period.map(Millis),
         planner: Some(planner),

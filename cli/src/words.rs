@@ -27,7 +27,7 @@ impl Words {
         let mut add = |name, value: Option<String>| {
             options.extend(value.map(|it| (name, Some(it))));
         };
-        add("--seed", Some(args.seed).filter(|&it| it != 0).map(|it| it.to_string()));
+        add("--seed", args.seed.map(|it| it.to_string()));
         add("--faults", Some(args.faults.clone()).filter(|it| it != "script"));
         add("--monitor-period", args.monitor_period.map(|it| it.to_string()));
         let fidelity = args.fidelity.to_possible_value().map(|it| it.get_name().to_owned());

@@ -332,3 +332,19 @@ fn a_trace_has_the_options_of_its_run() {
     let kinds: Vec<_> = text.lines().filter(|it| it.starts_with("kind")).collect();
     assert_eq!(kinds, ["kind = \"fault\"", "kind = \"obstacle\""]);
 }
+
+#[test]
+fn a_mission_says_the_seed_of_its_runs_unless_another_is_given() {
+    let folder = Folder::new("run_seed");
+    let ward = cotama_models::missions::embedded::mission("ward").unwrap().text;
+    folder.write("mine.toml", ward.replacen("[run]\n", "[run]\nseed = 7\n", 1));
+    let run = |mission: &str, more: &[&str]| {
+        let given = ["run", mission, "--fidelity", "signal", "--no-report", "--json"];
+        folder.cotama(&[&given[..], more].concat()).json(0)
+    };
+    let mine = run("mine.toml", &[]);
+    assert_eq!(mine["seed"], 7);
+    assert_eq!(mine, run("ward", &["--seed", "7"]));
+    assert_eq!(run("mine.toml", &["--seed", "0"]), run("ward", &[]));
+    assert_ne!(mine, run("ward", &[]));
+}

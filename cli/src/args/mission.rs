@@ -61,9 +61,9 @@ pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) planning: Planning,
     /// The seed of all random numbers; of missions under supervisors people in the plane alone are
-    /// drawn
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole(0, u64::MAX))]
-    pub(crate) seed: u64,
+    /// drawn [default: that of the mission file, else 0]
+    #[arg(long, value_name = "N", value_parser = whole(0, u64::MAX))]
+    pub(crate) seed: Option<u64>,
     /// Faults of the run: none (`none`), those of the mission file (`script`), or a file of faults
     #[arg(long, value_name = "none|script|FILE", default_value = "script")]
     pub(crate) faults: String,

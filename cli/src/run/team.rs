@@ -104,7 +104,7 @@ impl Chosen {
         // Faults are those of this team, whatever its size.
         let given = match args.faults.as_str() {
             "script" | "none" => None,
-            file => Some(faults(file, &own(args.seed, None))?),
+            file => Some(faults(file, &own(args.seed.unwrap_or(0), None))?),
         };
         Ok(move |seed: u64, method: Option<Method>| {
             let mut scenario = own(seed, method);
@@ -138,7 +138,7 @@ pub(crate) fn run(args: &RunArgs, chosen: &Chosen, screen: &Screen) -> Result<Ex
         }
         return compared(args, &made, seeds, screen);
     }
-    let trace = Trace::of(&made(args.seed, None));
+    let trace = Trace::of(&made(args.seed.unwrap_or(0), None));
     let usual = || PathBuf::from("report").join(report_name(&trace.header.scenario));
     let folder = args.report.clone().unwrap_or_else(usual);
     let folder = (!args.no_report).then_some(folder.as_path());

@@ -19,10 +19,11 @@ pub(super) fn compared(
 ) -> Result<Exit, Failure> {
     let threads = thread::available_parallelism().map_or(1, usize::from);
     let scenario = |seed, method| made(seed, Some(method));
-    let results = compare(&scenario, args.seed, seeds, &Method::ALL, threads);
+    let seed = args.seed.unwrap_or(0);
+    let results = compare(&scenario, seed, seeds, &Method::ALL, threads);
     let unsound: usize = results.iter().map(|it| it.unsound).sum();
     let reported: usize = results.iter().map(|it| it.reported).sum();
-    let first = made(args.seed, None);
+    let first = made(seed, None);
     let answer = TeamAnswer {
         schema: "cotama/run-team/1",
         scenario: first.name.clone(),
@@ -31,7 +32,7 @@ pub(super) fn compared(
             (0, _) => "reported",
             _ => "failed",
         },
-        seed: args.seed,
+        seed,
         robots: first.robots.len() as u64,
         tasks: first.tasks.len() as u64,
         loss_permille: first.network.loss_permille,
@@ -49,7 +50,7 @@ pub(super) fn compared(
     if args.json.json {
         Screen::json(&answer)?;
     } else {
-        let next = format!("cotama run {} --seed {}", quoted(&args.mission.mission), args.seed);
+        let next = format!("cotama run {} --seed {}", quoted(&args.mission.mission), seed);
         let faults = first.faults.len();
         screen.print(&render::team::compared(&answer, faults, &next, screen.width()))?;
     }

@@ -15,13 +15,15 @@ pub const FORMAT: &str = "panorama-faults/1";
 pub struct Run {
     /// Margins are checked every such period.
     pub monitor_period: Millis,
+    /// The seed of its random numbers, where none is given.
+    pub seed: u64,
     /// The faults.
     pub faults: Faults,
 }
 
 impl Default for Run {
     fn default() -> Self {
-        Self { monitor_period: Millis(1000), faults: Faults::default() }
+        Self { monitor_period: Millis(1000), seed: 0, faults: Faults::default() }
     }
 }
 
