@@ -14,7 +14,7 @@ const MAX_COMBINATIONS: usize = 4_096;
 const MAX_ALL_COMBINATIONS: usize = 65_536;
 
 /// The activities of a mission with their candidates.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Table {
     /// In sequence.
     pub activities: Vec<Activity>,

@@ -60,9 +60,11 @@ impl<'m> World<'m> {
         leads.next().is_some_and(|it| it.needs.get(kind).is_some_and(|&it| it > 0))
     }
 
-    /// Whether this kind of hardware detects obstacles, and none of the zones here blinds it.
+    /// Whether this kind of hardware detects obstacles, a unit of it is there, and none of the
+    /// zones here blinds it.
     pub(crate) fn sees(&self, kind: usize) -> bool {
-        let detects = self.mission.hardware.get(kind).map(|it| it.attributes.get("detect_ms"));
+        let there = self.mission.hardware.get(kind).filter(|it| it.units > 0);
+        let detects = there.map(|it| it.attributes.get("detect_ms"));
         let mut zones = self.zones.iter().filter_map(|&it| self.mission.zones.get(it));
         detects.flatten().is_some() && !zones.any(|it| it.blind.contains(&kind))
     }
