@@ -34,6 +34,7 @@ mod plan;
 mod read;
 pub mod rule;
 mod search;
+mod speeds;
 mod steps;
 mod surrogate;
 mod table;
@@ -50,6 +51,7 @@ pub use mission::{
 };
 pub use plan::{Plan, Point, Problem};
 pub use read::{CASE_FORMAT, Case, FORMAT, MAX_BYTES};
+pub use speeds::Speeds;
 pub use steps::{STEPS, Steps, Stop};
 pub use table::{Activity, Candidate, Dropped, Reason, Table, label, speed_alone};
 pub use tree::Wrong;

@@ -6,6 +6,7 @@ use crate::mission::{
     Ask, Attributes, Axis, Constraint, DetectBy, Hardware, Indicator, Kind, Mission, Objective,
     Relation, Sense, Tio, Zone,
 };
+use crate::speeds::Speeds;
 use crate::tree::{Fault, Node, Value, Wrong};
 use crate::{json, toml_text};
 
@@ -17,6 +18,9 @@ pub const CASE_FORMAT: &str = "axes-case/1";
 pub const MAX_BYTES: usize = 4 << 20;
 /// The robot knows at most so many speeds.
 const MAX_SPEEDS: i64 = 1_000;
+/// The key of the speeds of a robot that knows a few only.
+const LEVELS: &str = "speed_levels_mm_s";
+const MAX_LEVELS: usize = 64;
 /// A robot is no faster, in mm/s.
 const FASTEST: i64 = 100_000;
 const MAX_HARDWARE: usize = 32;
@@ -123,12 +127,10 @@ fn indicator_of(at: usize, name: &str, mission: &Mission) -> Result<usize, Fault
 fn mission(fields: &mut Fields<'_>, name: &str) -> Result<Mission, Fault> {
     let length = fields.integer("path_length_mm", 0, LARGEST)?;
     let node = fields.required("robot")?;
-    // Both stay attributes, too: a formula may read them.
+    let speeds = speeds(node)?;
     let mut robot = Fields::of(node, "`robot`")?;
-    let speed_step_mm_s = robot.integer("speed_step_mm_s", 1, FASTEST)?;
-    let most = (MAX_SPEEDS * speed_step_mm_s).min(FASTEST);
-    let speed_max_mm_s = robot.integer("speed_max_mm_s", speed_step_mm_s, most)?;
-    let robot = Fields::of(node, "`robot`")?.attributes()?;
+    robot.optional(LEVELS);
+    let robot = robot.attributes()?;
     let laptop = match fields.optional("laptop") {
         Some(node) => Fields::of(node, "`laptop`")?.attributes()?,
         None => Attributes::default(),
@@ -147,8 +149,7 @@ fn mission(fields: &mut Fields<'_>, name: &str) -> Result<Mission, Fault> {
     let mut mission = Mission {
         name: name.to_owned(),
         robot,
-        speed_max_mm_s,
-        speed_step_mm_s,
+        speeds,
         laptop,
         motion_power,
         detect_by,
@@ -189,6 +190,42 @@ fn mission(fields: &mut Fields<'_>, name: &str) -> Result<Mission, Fault> {
         mission.constraints.push(it);
     }
     Ok(mission)
+}
+
+/// The speeds of a robot; its step and its most stay attributes, too: a formula may read them.
+fn speeds(node: &Node) -> Result<Speeds, Fault> {
+    let mut robot = Fields::of(node, "`robot`")?;
+    let Some(list) = robot.optional(LEVELS) else {
+        let step_mm_s = robot.integer("speed_step_mm_s", 1, FASTEST)?;
+        let most = (MAX_SPEEDS * step_mm_s).min(FASTEST);
+        let most_mm_s = robot.integer("speed_max_mm_s", step_mm_s, most)?;
+        return Ok(Speeds::Step { step_mm_s, most_mm_s });
+    };
+    if let Some(it) = robot.optional("speed_step_mm_s") {
+        let message = format!("`speed_step_mm_s` and `{LEVELS}` exclude each other");
+        return Err(Fault::new(it.at, message));
+    }
+    let most = robot.integer("speed_max_mm_s", 1, FASTEST)?;
+    let Value::List(items) = &list.value else { return Err(wrong_type(list, LEVELS, "a list")) };
+    let mut levels = Vec::new();
+    for item in items.iter().take(MAX_LEVELS + 1) {
+        let level = integer(item, LEVELS, 1, FASTEST)?;
+        if levels.last().is_some_and(|it| *it >= level) {
+            let message = format!("`{LEVELS}` must rise, and {level} does not");
+            return Err(Fault::new(item.at, message));
+        }
+        levels.push(level);
+    }
+    if levels.is_empty() || levels.len() > MAX_LEVELS {
+        let message = format!("`{LEVELS}` has 1 to {MAX_LEVELS} speeds, not {}", items.len());
+        return Err(Fault::new(list.at, message));
+    }
+    levels.retain(|it| *it <= most);
+    if levels.is_empty() {
+        let message = format!("all of `{LEVELS}` are above `speed_max_mm_s`, {most}");
+        return Err(Fault::new(list.at, message));
+    }
+    Ok(Speeds::Levels(levels))
 }
 
 fn hardware_of(at: usize, name: &str, mission: &Mission) -> Result<usize, Fault> {

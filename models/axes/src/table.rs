@@ -45,8 +45,8 @@ pub struct Candidate {
     pub options: Vec<usize>,
     /// Zero if the robot stands.
     pub speed_mm_s: i64,
-    /// Core constraints that a speed of one step more breaks, by index; none where the robot
-    /// itself is no faster, or stands.
+    /// Core constraints that the next speed breaks, by index; none where the robot itself is no
+    /// faster, or stands.
     pub bounded_by: Vec<usize>,
     /// For each indicator its value, if it applies.
     pub values: Vec<Option<i64>>,
@@ -286,14 +286,13 @@ fn combination(
         return Ok(Err(Dropped { options, by }));
     }
     let tests = tests(mission, activity, &world, |it| !lifted.has(it))?;
-    let step = mission.speed_step_mm_s;
-    let most = if activity.travels() { mission.speed_max_mm_s / step } else { 0 };
-    let least = i64::from(activity.travels());
+    let travels = activity.travels();
+    let speeds = if travels { mission.speeds.count() } else { 1 };
     let work = 1 + tests.iter().map(|it| it.formula.size()).sum::<u64>();
     let mut broken = Vec::new();
-    for number in (least..=most).rev() {
+    for number in (0..speeds).rev() {
         steps.take(work)?;
-        let motion = world.at(number * step);
+        let motion = world.at(if travels { mission.speeds.at(number) } else { 0 });
         let bounded_by = broken;
         broken = Vec::new();
         for test in &tests {
