@@ -15,7 +15,7 @@ use crate::render;
 use cotama_axes::why::{Binding, Cause, why};
 use cotama_axes::{
     Activity, Case, Infeasible, Lifted, Mission, Plan, Problem, Single, Steps, Stop, Table, Wrong,
-    label,
+    Wrongs, label,
 };
 
 /// Plans a mission with axes.
@@ -24,11 +24,8 @@ pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
     let path = &args.mission.mission;
     let what = "a mission with axes";
     let text = kind::text(path, what, input::MISSION_BYTES, &[Kind::Axes])?;
-    let wrong = |it: Wrong| -> Failure {
-        let place = (it.line, it.column);
-        FileErrors::at_character(path, text.clone(), place, it.message, None).into()
-    };
-    let case = Case::parse(&text).map_err(wrong)?;
+    let case = Case::parse(&text).map_err(|it| wrongs(path, &text, it))?;
+    let wrong = |it| wrongs(path, &text, Wrongs { all: vec![it], omitted: 0 });
     let mut steps = Steps::new(args.planning.steps);
     let mut answer = answer(&case, &mut steps).map_err(wrong)?;
     answer.steps = steps.used();
@@ -38,6 +35,12 @@ pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
         screen.print(&render::axes::screen(&case.mission, &answer, screen.width()))?;
     }
     Ok(exit(answer.status))
+}
+
+fn wrongs(name: &str, text: &str, Wrongs { all, omitted }: Wrongs) -> Failure {
+    let all = all.into_iter().map(|it| ((it.line, it.column), it.message, it.help));
+    let errors = FileErrors::at_characters(input::name(name), text.to_owned(), all);
+    FileErrors { omitted, ..errors }.folded().into()
 }
 
 /// Refuses options of other missions.

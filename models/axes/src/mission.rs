@@ -12,6 +12,13 @@ impl Attributes {
     pub fn get(&self, key: &str) -> Option<i64> {
         self.0.iter().find(|it| it.0 == key).map(|it| it.1)
     }
+
+    /// Puts another number in the place of one that is there.
+    pub(crate) fn set(&mut self, key: &str, value: i64) {
+        if let Some(own) = self.0.iter_mut().find(|it| it.0 == key) {
+            own.1 = value;
+        }
+    }
 }
 
 /// A mission whose performance is judged on any number of axes.

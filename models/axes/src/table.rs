@@ -273,7 +273,7 @@ fn reads_detector(mission: &Mission) -> bool {
     formulas.flat_map(Formula::inducers).any(|it| matches!(it, Inducer::Detector(_)))
 }
 
-fn combination(
+pub(crate) fn combination(
     mission: &Mission,
     activity: &Activity,
     options: Vec<usize>,
@@ -312,6 +312,25 @@ fn combination(
         }
     }
     Ok(Err(Dropped { options, by: broken.into_iter().map(Reason::Core).collect() }))
+}
+
+/// Whether one core constraint alone holds at a speed in mm/s.
+pub(crate) fn holds_alone(
+    mission: &Mission,
+    activity: &Activity,
+    options: &[usize],
+    constraint: usize,
+    speed: i64,
+    steps: &mut Steps,
+) -> Result<bool, Stop> {
+    let world = activity.world(mission, options);
+    let tests = tests(mission, activity, &world, |it| it == constraint)?;
+    steps.take(1 + tests.iter().map(|it| it.formula.size()).sum::<u64>())?;
+    let mut holds = true;
+    for test in &tests {
+        holds &= !test.fails(&world, world.at(speed))?;
+    }
+    Ok(holds)
 }
 
 /// Returns the highest speed in whole mm/s, at most `most`, at which one core constraint alone

@@ -3,8 +3,9 @@
 
 use super::patrol::SPEEDS;
 use super::{lifted, table};
+use cotama_axes::raise::raises;
 use cotama_axes::why::why;
-use cotama_axes::{Activity, Case, PATROL, Steps, label, speed_alone};
+use cotama_axes::{Activity, Case, Lifted, PATROL, Steps, label, speed_alone};
 
 /// The speed of an activity with M5 and another option, the constraints that bind, and what each
 /// printed core constraint allows alone, in mm/s: 3000 stands for all.
@@ -72,6 +73,56 @@ fn inducers_that_bind_are_named_with_their_source() {
         ]
     );
     assert_eq!(said(4, "T1 L1"), (vec![], vec![]));
+}
+
+/// Changes of one number after which a constraint allows an activity's candidate the next speed: the
+/// number that is needed, and the speed with it.
+fn changes(case: &Case, activity: usize, options: &str, constraint: &str) -> Vec<String> {
+    let table = table(case, Lifted::default());
+    let activity = &table.activities[activity - 1];
+    let mut all = activity.candidates.iter();
+    let it = all.find(|it| label(&case.mission, &it.options) == options).unwrap();
+    let constraint = case.mission.constraint(constraint).unwrap();
+    let raises = raises(&case.mission, activity, it, constraint, &mut Steps::default()).unwrap();
+    let said = |it: &cotama_axes::raise::Raise| {
+        format!("{} {} -> {}: {}", it.name, it.now, it.needed, it.speed_mm_s)
+    };
+    raises.iter().map(said).collect()
+}
+
+#[test]
+fn changes_that_raise_a_speed_are_the_nearest() {
+    let case = Case::parse(PATROL).unwrap();
+    assert_eq!(
+        changes(&case, 9, "M3 L1", "harmless"),
+        ["robot.mass_g 25000 -> 24616: 570", "goal 4000 -> 4063: 570"]
+    );
+    assert_eq!(
+        changes(&case, 9, "M5 L2", "frames"),
+        ["L2.frames 1 -> 0: 560", "goal 14000 -> 14001: 420"]
+    );
+    // Behind the glass the sonar counts, and the width of the hall.
+    assert_eq!(
+        changes(&case, 2, "M1 L1", "avoidance"),
+        [
+            "robot.body_radius_mm 250 -> 245: 340",
+            "robot.braking_mm_s2 300 -> 308: 340",
+            "robot.cycle_ms 100 -> 86: 340",
+            "robot.wall_clearance_mm 235 -> 230: 340",
+            "H1-out.width_mm 1700 -> 1710: 340",
+            "sonar.detect_ms 420 -> 406: 340",
+            "goal 0 -> -4468: 340",
+        ]
+    );
+}
+
+#[test]
+fn two_constraints_that_bind_at_once_must_both_give_way() {
+    let case = Case::parse(PATROL).unwrap();
+    let frames = changes(&case, 1, "M3 L2", "frames");
+    assert_eq!(frames, ["L2.frames 1 -> 0: 410", "goal 14000 -> 14001: 410"]);
+    let avoidance = changes(&case, 1, "M3 L2", "avoidance");
+    assert!(!avoidance.is_empty() && avoidance.iter().all(|it| it.ends_with(": 410")));
 }
 
 /// The patrol of a robot that knows the four printed speeds, with the printed 0.45 m/s of pictures.
