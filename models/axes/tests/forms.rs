@@ -48,7 +48,8 @@ fn a_form_is_the_formula_that_it_stands_for() {
 #[test]
 fn a_sum_reads_other_indicators() {
     let energy = "[[axis]]\nid = \"all\"\n[[axis.indicator]]\nid = \"double\"\nunit = \"ms\"\n\
-                  combine = \"sum\"\ntravel = { form = \"sum\", of = [\"work.time\", \"duration_ms\"] }\n\
+                  combine = \"sum\"\n\
+                  travel = { form = \"sum\", of = [\"work.time\", \"duration_ms\"] }\n\
                   stand = { form = \"sum\", of = [\"work.time\", \"work.time\"] }\n";
     let case = Case::parse(&format!("{WALK}{energy}")).unwrap_or_else(|wrongs| panic!("{wrongs}"));
     let number = case.mission.indicator("all.double").unwrap();

@@ -75,8 +75,8 @@ fn inducers_that_bind_are_named_with_their_source() {
     assert_eq!(said(4, "T1 L1"), (vec![], vec![]));
 }
 
-/// Changes of one number after which a constraint allows an activity's candidate the next speed: the
-/// number that is needed, and the speed with it.
+/// Changes of one number after which a constraint allows an activity's candidate the next speed:
+/// the number that is needed, and the speed with it.
 fn changes(case: &Case, activity: usize, options: &str, constraint: &str) -> Vec<String> {
     let table = table(case, Lifted::default());
     let activity = &table.activities[activity - 1];
