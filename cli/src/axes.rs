@@ -74,18 +74,10 @@ fn wrongs(name: &str, text: &str, Wrongs { all, omitted }: Wrongs) -> Failure {
 
 /// Refuses options of other missions.
 fn refuse_others(args: &PlanArgs) -> Result<(), Failure> {
-    let planning = &args.planning;
-    let given = [
-        ("--objective", args.objective.is_some()),
-        ("--allocator", planning.allocator.is_some()),
-        ("--lost", !planning.lost.is_empty()),
-        ("--duration-limit", planning.duration_limit.is_some()),
-        ("--energy-limit", planning.energy_limit.is_some()),
-        ("--supervised", planning.supervised.is_some()),
-    ];
-    match given.iter().find(|it| it.1) {
+    let objective = args.objective.map(|_| "--objective");
+    match objective.or(args.planning.first()) {
         None => Ok(()),
-        Some((option, _)) => {
+        Some(option) => {
             let message = format!("{option}: a mission with axes says all of this in its file");
             Err(Failure::new(message).help(format!("leave {option} out")))
         }

@@ -8,6 +8,10 @@ use std::cell::RefCell;
 pub(crate) const LARGEST: i64 = 1_000_000_000_000_000;
 /// The longest name, in characters.
 const MAX_NAME: usize = 64;
+/// A table has at most so many attributes.
+const MAX_ATTRIBUTES: usize = 64;
+/// So many names are looked at for the one that was meant.
+const MAX_NEAR: usize = 256;
 /// The most faults of a file that are told; further ones are counted.
 const MAX_FAULTS: usize = 64;
 
@@ -19,6 +23,11 @@ impl Faults {
     pub(crate) fn add(&self, fault: Fault) {
         let (all, omitted) = &mut *self.0.borrow_mut();
         if all.len() < MAX_FAULTS { all.push(fault) } else { *omitted += 1 }
+    }
+
+    /// Whether further ones are counted only.
+    fn are_many(&self) -> bool {
+        self.0.borrow().0.len() >= MAX_FAULTS
     }
 
     /// Adds a fault without a remedy.
@@ -176,7 +185,15 @@ impl<'n, 'f> Fields<'n, 'f> {
     /// Takes whatever is left as attributes.
     pub(crate) fn attributes(self) -> Attributes {
         let mut attributes = Vec::new();
-        for entry in self.left {
+        if self.left.len() > MAX_ATTRIBUTES {
+            let (what, all) = (&self.what, self.left.len());
+            let message =
+                format!("{what} has {all} further keys, at most {MAX_ATTRIBUTES} are read");
+            self.faults.say(self.at, message);
+            // An empty name stands for those that are not read.
+            attributes.push((String::new(), 0));
+        }
+        for entry in self.left.into_iter().take(MAX_ATTRIBUTES) {
             let value = integer(&entry.node, &entry.key, -LARGEST, LARGEST, self.faults);
             attributes.push((entry.key.clone(), value.unwrap_or(0)));
         }
@@ -188,7 +205,9 @@ impl<'n, 'f> Fields<'n, 'f> {
         for it in self.left {
             let message = format!("unknown key `{}` in {}", short(&it.key), self.what);
             let mut fault = Fault::new(it.key_at, message);
-            if let Some(near) = near(&it.key, self.asked.iter().copied()) {
+            if !self.faults.are_many()
+                && let Some(near) = near(&it.key, self.asked.iter().copied())
+            {
                 fault = fault.help(format!("did you mean `{near}`?"));
             }
             self.faults.add(fault);
@@ -275,7 +294,7 @@ pub(crate) fn there_are<'k>(known: impl Iterator<Item = &'k str>) -> String {
 pub(crate) fn near<'k>(word: &str, names: impl Iterator<Item = &'k str>) -> Option<&'k str> {
     // The distance takes time that grows with both lengths.
     let names = names.filter(|it| it.len() <= MAX_NAME && word.len() <= MAX_NAME);
-    let names = names.map(|it| (strsim::damerau_levenshtein(word, it), it));
+    let names = names.take(MAX_NEAR).map(|it| (strsim::damerau_levenshtein(word, it), it));
     names.filter(|it| it.0 <= (it.1.chars().count() / 3).max(1)).min().map(|it| it.1)
 }
 

@@ -45,8 +45,8 @@ pub fn raises(
 ) -> Result<Vec<Raise>, Stop> {
     let Some(next) = mission.speeds.above(candidate.speed_mm_s) else { return Ok(Vec::new()) };
     let mut raises = Vec::new();
+    let mut changed = mission.clone();
     for number in numbers(mission, activity, candidate, constraint, next)? {
-        let mut changed = mission.clone();
         let now = number.get(mission, activity);
         let least = if matches!(number, Number::Goal(_)) || now < 0 { -LARGEST } else { 0 };
         for (sign, end) in [(-1, least), (1, LARGEST)] {
@@ -64,7 +64,9 @@ pub fn raises(
             let speed_mm_s = with.map_or(0, |it| it.speed_mm_s);
             raises.push(Raise { name: number.name(mission), now, needed, speed_mm_s });
         }
+        number.undo(&mut changed, mission, activity, now);
     }
+    debug_assert_eq!(changed, *mission);
     Ok(raises)
 }
 
@@ -182,6 +184,15 @@ impl Number {
             }
             Self::Hardware(it, key) => own(mission.hardware.get(*it).map(|it| &it.attributes), key),
             Self::Tio(it, key) => own(mission.options.get(*it).map(|it| &it.attributes), key),
+        }
+    }
+
+    /// Puts back what a mission had before.
+    fn undo(&self, changed: &mut Mission, mission: &Mission, activity: &Activity, now: i64) {
+        match self {
+            // Goals of several zones may have been several.
+            Self::Goal(_) => changed.constraints.clone_from(&mission.constraints),
+            _ => self.set(changed, activity, now),
         }
     }
 

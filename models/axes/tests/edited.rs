@@ -227,6 +227,21 @@ fn faults_of_a_file_are_said_all_at_once() {
     assert!(wrongs.all.is_sorted_by_key(|it| (it.line, it.column)));
 }
 
+/// A hostile file costs little: tables and faults have limits.
+#[test]
+fn a_file_of_many_keys_is_refused_with_few_words() {
+    let keys =
+        |count: usize| (0..count).fold(String::new(), |text, it| text + &format!("k{it} = \"\"\n"));
+    let many = PATROL.replacen("[robot]\n", &format!("[robot]\n{}", keys(100_000)), 1);
+    let wrongs = Case::parse(&many).unwrap_err();
+    assert_eq!((wrongs.all.len(), wrongs.omitted), (64, 1));
+    let first = "18:1: `robot` has 100005 further keys, at most 64 are read";
+    assert_eq!(wrongs.all[0].to_string(), first);
+    let many = PATROL.replacen("[motion_power]", &format!("[motion_power]\n{}", keys(9_000)), 1);
+    let wrongs = Case::parse(&many).unwrap_err();
+    assert_eq!((wrongs.all.len(), wrongs.omitted), (64, 9_000 - 64));
+}
+
 proptest! {
     /// A file with some bytes changed is read, or refused; what is read has a table, or none.
     #[test]
