@@ -7,6 +7,7 @@ pub(crate) mod check;
 pub(crate) mod conform;
 pub(crate) mod error;
 pub(crate) mod estimate;
+pub(crate) mod explain;
 pub(crate) mod floor;
 pub(crate) mod fmeca;
 pub(crate) mod model;

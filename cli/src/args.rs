@@ -5,6 +5,7 @@ mod campaign;
 mod check;
 mod conform;
 mod estimate;
+mod explain;
 mod fitted;
 mod floor;
 mod fmeca;
@@ -21,6 +22,7 @@ pub(crate) use campaign::{CampaignArgs, PolicyName};
 pub(crate) use check::{BudgetArgs, CheckArgs, EngineName, Semantics, StatespaceArgs, VerifyArgs};
 pub(crate) use conform::ConformArgs;
 pub(crate) use estimate::{EstimateArgs, MOST_RUNS};
+pub(crate) use explain::ExplainArgs;
 pub(crate) use fitted::command;
 pub(crate) use floor::FloorArgs;
 pub(crate) use fmeca::{FmecaArgs, FmecaFormat};
@@ -103,6 +105,14 @@ Examples:
   $ cotama plan patrol --lost laser:1 --json
   $ cotama plan patrol --energy-limit 4000000   # infeasible: says why, exit code 1")]
     Plan(PlanArgs),
+    /// Says why candidates of a mission with axes are not faster, and what would change it
+    ///
+    /// A speed is the highest at which all core constraints hold. For each candidate of an activity
+    /// it is said which constraint binds, by which inducers, what each allows alone, and which
+    /// single number, changed as little as can be, allows more. Without an activity it is a table
+    /// of all.
+    #[command(after_long_help = explain::EXPLAIN_EXAMPLES)]
+    Explain(ExplainArgs),
     /// Plans a mission, runs it with its faults, plans again where needed, and writes a report
     ///
     /// The run is simulated and deterministic: the same mission, faults and seed give the same run.

@@ -1,5 +1,7 @@
 //! `cotama plan` of a mission with performance axes of its own.
 
+pub(crate) mod explain;
+
 use crate::allocate::exit;
 use crate::answers::Status;
 use crate::answers::axes::{
@@ -14,23 +16,17 @@ use crate::output::Screen;
 use crate::render;
 use cotama_axes::why::{Binding, Cause, why};
 use cotama_axes::{
-    Activity, Case, Infeasible, Lifted, Mission, Plan, Problem, Single, Steps, Stop, Table, Wrong,
-    label,
+    Activity, Case, Dropped, Infeasible, Lifted, Mission, Plan, Problem, Single, Steps, Stop,
+    Table, Wrong, Wrongs, label,
 };
 
 /// Plans a mission with axes.
 pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
     refuse_others(args)?;
-    let path = &args.mission.mission;
-    let what = "a mission with axes";
-    let text = kind::text(path, what, input::MISSION_BYTES, &[Kind::Axes])?;
-    let wrong = |it: Wrong| -> Failure {
-        let place = (it.line, it.column);
-        FileErrors::at_character(path, text.clone(), place, it.message, None).into()
-    };
-    let case = Case::parse(&text).map_err(wrong)?;
+    let file = File::load(&args.mission.mission)?;
+    let case = &file.case;
     let mut steps = Steps::new(args.planning.steps);
-    let mut answer = answer(&case, &mut steps).map_err(wrong)?;
+    let mut answer = answer(case, &mut steps).map_err(|it| file.wrong(it))?;
     answer.steps = steps.used();
     if args.json.json {
         Screen::json(&answer)?;
@@ -40,20 +36,48 @@ pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
     Ok(exit(answer.status))
 }
 
+/// Whether a word of the command line means a mission with axes: by its name, or as a file.
+pub(crate) fn is(name: &str) -> bool {
+    cotama_axes::embedded(name).is_some() || kind::is(name, Kind::Axes)
+}
+
+/// A mission with axes and its text.
+#[derive(Debug)]
+pub(crate) struct File {
+    name: String,
+    text: String,
+    pub(crate) case: Case,
+}
+
+impl File {
+    /// Reads the mission of this name, or of the file at this path.
+    pub(crate) fn load(name: &str) -> Result<Self, Failure> {
+        let text = match cotama_axes::embedded(name) {
+            Some(it) => it.text.to_owned(),
+            None => kind::text(name, "a mission with axes", input::MISSION_BYTES, &[Kind::Axes])?,
+        };
+        let case = Case::parse(&text).map_err(|it| wrongs(name, &text, it))?;
+        Ok(Self { name: name.to_owned(), text, case })
+    }
+
+    /// Says that arithmetic of a formula does not come out.
+    fn wrong(&self, it: Wrong) -> Failure {
+        wrongs(&self.name, &self.text, Wrongs { all: vec![it], omitted: 0 })
+    }
+}
+
+fn wrongs(name: &str, text: &str, Wrongs { all, omitted }: Wrongs) -> Failure {
+    let all = all.into_iter().map(|it| ((it.line, it.column), it.message, it.help));
+    let errors = FileErrors::at_characters(input::name(name), text.to_owned(), all);
+    FileErrors { omitted, ..errors }.folded().into()
+}
+
 /// Refuses options of other missions.
 fn refuse_others(args: &PlanArgs) -> Result<(), Failure> {
-    let planning = &args.planning;
-    let given = [
-        ("--objective", args.objective.is_some()),
-        ("--allocator", planning.allocator.is_some()),
-        ("--lost", !planning.lost.is_empty()),
-        ("--duration-limit", planning.duration_limit.is_some()),
-        ("--energy-limit", planning.energy_limit.is_some()),
-        ("--supervised", planning.supervised.is_some()),
-    ];
-    match given.iter().find(|it| it.1) {
+    let objective = args.objective.map(|_| "--objective");
+    match objective.or(args.planning.first()) {
         None => Ok(()),
-        Some((option, _)) => {
+        Some(option) => {
             let message = format!("{option}: a mission with axes says all of this in its file");
             Err(Failure::new(message).help(format!("leave {option} out")))
         }
@@ -134,10 +158,6 @@ fn activity_row(
     let speed_max_mm_s = activity.speed_max_mm_s();
     let fastest = activity.candidates.iter().find(|it| it.speed_mm_s == speed_max_mm_s);
     let bounds = fastest.map(|it| why(mission, activity, it)).transpose()?.unwrap_or_default();
-    let dropped = |it: &cotama_axes::Dropped| DroppedRow {
-        options: label(mission, &it.options),
-        by: it.by.iter().map(|it| it.name(mission)).collect(),
-    };
     Ok(AxesActivity {
         id: format!("A{}", number + 1),
         objective: objective.map_or_else(String::new, |it| it.id.clone()),
@@ -147,20 +167,28 @@ fn activity_row(
         candidates_before: activity.before() as u64,
         speed_max_mm_s,
         bounded_by: bounds.into_iter().map(|it| bound_row(mission, it)).collect(),
-        dropped: activity.dropped.iter().map(dropped).collect(),
+        dropped: activity.dropped.iter().map(|it| dropped_row(mission, it)).collect(),
     })
 }
 
 fn bound_row(mission: &Mission, bound: Binding) -> BoundRow {
     let constraint = mission.constraints.get(bound.constraint);
-    let inducer = |Cause { name, value, of }| InducerRow { name, value, of };
     BoundRow {
         constraint: constraint.map_or_else(String::new, |it| it.id.clone()),
         value: bound.value,
         value_next: bound.value_next,
         goal: bound.goal,
-        inducers: bound.inducers.into_iter().map(inducer).collect(),
+        inducers: bound.inducers.into_iter().map(inducer_row).collect(),
     }
+}
+
+fn inducer_row(Cause { name, value, of }: Cause) -> InducerRow {
+    InducerRow { name, value, of }
+}
+
+fn dropped_row(mission: &Mission, it: &Dropped) -> DroppedRow {
+    let by = it.by.iter().map(|it| it.name(mission)).collect();
+    DroppedRow { options: label(mission, &it.options), by }
 }
 
 fn fill(answer: &mut AxesAnswer, mission: &Mission, table: &Table, plan: &Plan) {

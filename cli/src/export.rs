@@ -1,6 +1,7 @@
 //! `cotama export`: a model as a file of another tool, or as a drawing.
 
 use crate::args::{DrawnAs, ExportArgs, Format, Semantics};
+use crate::axes;
 use crate::exit::{Exit, Failure};
 use crate::model::{self, Found};
 use crate::names::near;
@@ -38,6 +39,9 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
                 .help(format!("formats: {}", formats().join(", "))));
         }
     };
+    if axes::is(&args.model.model) {
+        return causes(args, format, screen);
+    }
     if args.style.is_some() && !matches!(format, Format::Dot | Format::Svg | Format::Mermaid) {
         return Err(Failure::new(format!("--style is for drawings, and {} is none", name(format)))
             .help("drawings: dot, svg, mermaid"));
@@ -57,12 +61,42 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
     };
     match &args.output {
         None if format == Format::Net => Screen::raw(shown(&text, screen).as_bytes())?,
-        None => Screen::raw(text.as_bytes())?,
-        Some(path) => {
-            output::file(path, text.as_bytes())?;
-            screen.note(&format!("written: {NAME}{}{NAME:#}", path.display()));
-        }
+        output => put(&text, output.as_deref(), screen)?,
     }
+    Ok(Exit::Success)
+}
+
+/// Writes a text to a file, or to standard output.
+fn put(text: &str, output: Option<&Path>, screen: &Screen) -> Result<(), Failure> {
+    let Some(path) = output else { return Screen::raw(text.as_bytes()) };
+    output::file(path, text.as_bytes())?;
+    screen.note(&format!("written: {NAME}{}{NAME:#}", path.display()));
+    Ok(())
+}
+
+/// Writes which inducers act on the indicators of a mission with axes.
+fn causes(args: &ExportArgs, format: Format, screen: &Screen) -> Result<Exit, Failure> {
+    let name = &args.model.model;
+    let given = [
+        ("--style", args.style.is_some()),
+        ("--net", args.net.is_some()),
+        ("--semantics", args.semantics.is_some()),
+    ];
+    if let Some((option, _)) = given.into_iter().find(|it| it.1) {
+        let message = format!("{option} is for models, and `{name}` is a mission with axes");
+        return Err(Failure::new(message).help(format!("leave {option} out")));
+    }
+    let mission = axes::File::load(name)?.case.mission;
+    let text = match format {
+        Format::Dot => cotama_axes::causes::dot(&mission),
+        Format::Mermaid => cotama_axes::causes::mermaid(&mission),
+        other => {
+            let message = format!("{}: no format for causes and effects", self::name(other));
+            return Err(Failure::new(message)
+                .help(format!("`{name}` is a mission with axes: --format dot|mermaid")));
+        }
+    };
+    put(&text, args.output.as_deref(), screen)?;
     Ok(Exit::Success)
 }
 

@@ -126,11 +126,26 @@ impl FileErrors {
         message: String,
         help: Option<String>,
     ) -> Self {
-        let whole = text.split('\n').nth(line.saturating_sub(1)).unwrap_or_default();
-        let bytes = whole.chars().take(column.saturating_sub(1)).map(char::len_utf8).sum::<usize>();
-        let mut errors = Self::at(source, text, line, bytes + 1, message);
-        errors.errors[0].help = help;
-        errors
+        Self::at_characters(source, text, std::iter::once(((line, column), message, help)))
+    }
+
+    /// Errors at lines and columns in characters, both from 1, each with its remedy.
+    pub(crate) fn at_characters(
+        source: &str,
+        text: String,
+        all: impl Iterator<Item = ((usize, usize), String, Option<String>)>,
+    ) -> Self {
+        let one = |((line, column), message, help): ((usize, usize), String, Option<String>)| {
+            let start: usize =
+                text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+            let rest = text.get(start..).unwrap_or_default();
+            let before = rest.chars().take(column.saturating_sub(1)).take_while(|it| *it != '\n');
+            let start = start + before.map(char::len_utf8).sum::<usize>();
+            let end = start + text[start..].chars().next().map_or(0, char::len_utf8);
+            FileError::new(message, Mark { line, column, span: start..end }, help)
+        };
+        let errors = all.map(one).collect();
+        Self { source: source.to_owned(), text, errors, omitted: 0 }
     }
 }
 

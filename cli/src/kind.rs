@@ -139,7 +139,7 @@ impl Kind {
     const fn origin(self) -> &'static str {
         match self {
             Self::Mission => "`cotama new mission NAME` begins one",
-            Self::Axes => "`cotama help plan` says how one begins",
+            Self::Axes => "`cotama new axes NAME` begins one",
             Self::Faults => "one in which nothing goes wrong is `format = \"panorama-faults/1\"`",
             Self::Pnml | Self::JsonNet | Self::JsonSystem | Self::Tina => {
                 "`cotama models` lists those that come with the program"
@@ -256,8 +256,13 @@ fn beginning(bytes: &[u8]) -> String {
     start.trim_start_matches('\u{feff}').trim_start().to_owned()
 }
 
-/// Why the name of a model is none of a mission, if it is a model's.
+/// Why the name of a model is none of a plain mission, if it is that of a model, or of a mission
+/// with axes.
 pub(crate) fn model_for_mission(name: &str) -> Option<Failure> {
+    if cotama_axes::embedded(name).is_some() {
+        let message = format!("`{name}` is a mission with axes, and a plain one is needed here");
+        return Some(Failure::new(message).help(format!("try `cotama plan {name}`")));
+    }
     let model = name.split_once(':').map_or(name, |it| it.0);
     catalogue::entry(model)?;
     let failure = Failure::new(format!("`{name}` is a model, and a mission is needed here"));

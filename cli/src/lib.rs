@@ -151,6 +151,7 @@ fn ended(command: Command, screen: &Screen) -> Result<Exit, Failure> {
     match command {
         Command::List(args) => list::list(&args, screen),
         Command::Plan(args) => plan::plan(&args, screen),
+        Command::Explain(args) => axes::explain::explain(&args, screen),
         Command::Run(args) => run::run(&args, screen),
         Command::Allocate(args) => allocate::allocate(&args, screen),
         Command::Assign(args) => assign::assign(&args, screen),

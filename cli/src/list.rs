@@ -15,9 +15,10 @@ use std::fmt::Write;
 /// Lists what comes with the program.
 pub(crate) fn list(args: &ListArgs, screen: &Screen) -> Result<Exit, Failure> {
     let missions = embedded::embedded().iter();
-    let missions = missions
-        .map(|it| Listed { name: it.name.to_owned(), description: it.description.to_owned() })
-        .collect();
+    let with_axes = cotama_axes::EMBEDDED.iter().map(|it| (it.name, it.description));
+    let missions = missions.map(|it| (it.name, it.description)).chain(with_axes);
+    let missions =
+        missions.map(|it| Listed { name: it.0.to_owned(), description: it.1.to_owned() }).collect();
     let models = catalogue::entries();
     let models = models
         .iter()

@@ -178,7 +178,9 @@ pub(crate) fn planner(
 }
 
 fn unknown(name: &str) -> Failure {
-    let names: Vec<_> = embedded::embedded().iter().map(|mission| mission.name).collect();
+    let with_axes = cotama_axes::EMBEDDED.iter().map(|mission| mission.name);
+    let names = embedded::embedded().iter().map(|mission| mission.name).chain(with_axes);
+    let names: Vec<_> = names.collect();
     let guess = near(name, names.iter().copied())
         .map_or_else(String::new, |known| format!("; did you mean `{known}`?"));
     Failure::new(format!("there is no mission `{name}`, and no file of this name{guess}")).help(

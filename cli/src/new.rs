@@ -1,5 +1,5 @@
-//! `cotama new`: a mission, a robot, a team, a floor, an FMECA, or a crate with a net or a system,
-//! that works as it is.
+//! `cotama new`: a mission, with axes or without, a robot, a team, a floor, an FMECA, or a crate
+//! with a net or a system, that works as it is.
 //!
 //! The texts are the files in `templates/`, in which the name stands for the one that is wanted.
 
@@ -45,6 +45,7 @@ macro_rules! template {
 
 /// Templates of one file: its text and the name in it.
 const MISSION: (&str, &str) = (include_str!("../templates/mission.toml"), "my-mission");
+const AXES: (&str, &str) = (include_str!("../templates/axes.toml"), "my-axes");
 const ROBOT: (&str, &str) = (include_str!("../templates/robot.toml"), "my-robot");
 const TEAM: (&str, &str) = (include_str!("../templates/team.toml"), "my-team");
 const FLOOR: (&str, &str) = (include_str!("../templates/floor.toml"), "my-floor");
@@ -102,7 +103,12 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
         return Err(Failure::new(message).help("add `--robot`, or leave it out"));
     }
     let (files, next) = match args.kind {
-        NewKind::Mission | NewKind::Robot | NewKind::Team | NewKind::Floor | NewKind::Fmeca => {
+        NewKind::Mission
+        | NewKind::Axes
+        | NewKind::Robot
+        | NewKind::Team
+        | NewKind::Floor
+        | NewKind::Fmeca => {
             let what = one_file(args.kind);
             if args.sources.is_some() {
                 let message = format!("--sources is for crates: {what} is one file");
@@ -112,6 +118,7 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
             refuse_to_replace(&file)?;
             let (text, own) = match args.kind {
                 NewKind::Mission => MISSION,
+                NewKind::Axes => AXES,
                 NewKind::Robot => ROBOT,
                 NewKind::Team => TEAM,
                 NewKind::Floor => FLOOR,
@@ -125,6 +132,7 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
             let shown = quoted(&file.display().to_string());
             let [first, second] = match args.kind {
                 NewKind::Mission => ["plan", "run"].map(|it| format!("{it} {shown}")),
+                NewKind::Axes => ["plan", "explain"].map(|it| format!("{it} {shown}")),
                 NewKind::Team => ["run", "assign"].map(|it| format!("{it} {shown}")),
                 NewKind::Robot => {
                     [format!("check {shown}"), format!("export {shown} --format svg")]
@@ -300,6 +308,7 @@ fn is_crate(kind: NewKind) -> bool {
 /// Returns a kind that is one file, in words.
 const fn one_file(kind: NewKind) -> &'static str {
     match kind {
+        NewKind::Axes => "a mission with axes",
         NewKind::Robot => "a robot",
         NewKind::Team => "a team",
         NewKind::Floor => "a floor",
@@ -327,7 +336,12 @@ fn check_name(kind: NewKind, name: &str) -> Result<(), Failure> {
     }
     let module = name.replace('-', "_");
     let taken = match kind {
-        NewKind::Mission | NewKind::Robot | NewKind::Team | NewKind::Floor | NewKind::Fmeca => {
+        NewKind::Mission
+        | NewKind::Axes
+        | NewKind::Robot
+        | NewKind::Team
+        | NewKind::Floor
+        | NewKind::Fmeca => {
             return Ok(());
         }
         NewKind::Net => NET.taken,

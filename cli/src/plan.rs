@@ -6,7 +6,6 @@ use crate::args::{Objective as Wanted, PlanArgs, STEPS};
 use crate::axes;
 use crate::exit::{Exit, Failure};
 use crate::infeasible;
-use crate::kind::{self, Kind};
 use crate::mission;
 use crate::output::Screen;
 use crate::render;
@@ -21,7 +20,7 @@ use cotama_sim::solver::{MIN_ENERGY, QUALITY};
 
 /// Splits a mission into activities and plans it.
 pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
-    if kind::is(&args.mission.mission, Kind::Axes) {
+    if axes::is(&args.mission.mission) {
         return axes::plan(args, screen);
     }
     mission::pursued(args.objective, args.planning.allocator)?;

@@ -57,6 +57,7 @@ mod tests {
     use crate::answers::conform::ConformAnswer;
     use crate::answers::error::ErrorAnswer;
     use crate::answers::estimate::EstimateAnswer;
+    use crate::answers::explain::ExplainAnswer;
     use crate::answers::floor::FloorAnswer;
     use crate::answers::fmeca::{FmecaAnswer, MeasureAnswer};
     use crate::answers::model::{ModelsAnswer, SimulateAnswer};
@@ -93,6 +94,7 @@ mod tests {
             ("list", of::<ListAnswer>()),
             ("plan", of::<PlanAnswer>()),
             ("plan-axes", of::<AxesAnswer>()),
+            ("explain", of::<ExplainAnswer>()),
             ("run", of::<RunAnswer>()),
             ("run-team", of::<TeamAnswer>()),
             ("allocate", of::<AllocateAnswer>()),

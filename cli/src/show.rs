@@ -12,6 +12,7 @@ use cotama_models::robots;
 /// strings and comments is escaped.
 pub(crate) fn show(args: &MissionArg) -> Result<Exit, Failure> {
     let robot = robots::embedded(&args.mission).map(|it| it.text);
+    let robot = robot.or_else(|| cotama_axes::embedded(&args.mission).map(|it| it.text));
     let floor = || cotama_floor::embedded::named(&args.mission).map(|it| it.text);
     // A team has the name of the floor that is drawn for it.
     let text = match (robot, Chosen::of(&args.mission)?) {

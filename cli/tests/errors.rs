@@ -20,8 +20,8 @@ fn an_error_is_an_object_of_its_own_schema() {
             "message": "there is no mission `patroll`, and no file of this name; did you mean \
                         `patrol`?",
             "file": null, "line": null, "column": null,
-            "help": "missions that come with the program: patrol, delivery, shift, ward; or give \
-                     the path of a mission file",
+            "help": "missions that come with the program: patrol, delivery, shift, ward, \
+                     patrol-axes; or give the path of a mission file",
         })
     );
     let error = folder.cotama(&["plan", "no.toml", "--json"]).json(2);

@@ -60,7 +60,7 @@ pub(crate) struct AxesActivity {
     pub(crate) candidates_before: u64,
     /// Zero when it does not travel.
     pub(crate) speed_max_mm_s: i64,
-    /// Constraints that the fastest candidate, the first of equals, would break at one step more;
+    /// Constraints that the fastest candidate, the first of equals, would break at the next speed;
     /// none where the robot itself is no faster, or stands.
     pub(crate) bounded_by: Vec<BoundRow>,
     /// Combinations of options that are no candidates.
@@ -74,7 +74,7 @@ pub(crate) struct BoundRow {
     pub(crate) constraint: String,
     /// The value of its indicator at the speed.
     pub(crate) value: i64,
-    /// The value at one step more.
+    /// The value at the next speed.
     pub(crate) value_next: i64,
     /// The goal here, which that value misses.
     pub(crate) goal: i64,
@@ -83,7 +83,7 @@ pub(crate) struct BoundRow {
 }
 
 /// A parameter that acts on an indicator.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct InducerRow {
     /// As in formulas.

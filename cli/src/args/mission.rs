@@ -33,6 +33,20 @@ pub(crate) struct Planning {
     pub(crate) supervised: Option<String>,
 }
 
+impl Planning {
+    /// The first of these options that was given, the number of steps aside.
+    pub(crate) fn first(&self) -> Option<&'static str> {
+        let given = [
+            ("--allocator", self.allocator.is_some()),
+            ("--lost", !self.lost.is_empty()),
+            ("--duration-limit", self.duration_limit.is_some()),
+            ("--energy-limit", self.energy_limit.is_some()),
+            ("--supervised", self.supervised.is_some()),
+        ];
+        given.into_iter().find(|it| it.1).map(|it| it.0)
+    }
+}
+
 #[derive(Args, Debug)]
 pub(crate) struct PlanArgs {
     #[command(flatten)]

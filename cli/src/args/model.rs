@@ -21,7 +21,8 @@ Examples:
   $ cotama export watchdog --output watchdog.scxml
   $ cotama export watchdog --output watchdog.net
   $ cotama export delivery --format pnml > rounds.pnml   # a system as one net
-  $ cotama export delivery --semantics interleaving --format json > any_order.json";
+  $ cotama export delivery --semantics interleaving --format json > any_order.json
+  $ cotama export patrol-axes --format mermaid           # causes and effects of a mission's axes";
 
 pub(crate) const SIMULATE_EXAMPLES: &str = "\
 Words:

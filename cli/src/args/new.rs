@@ -8,6 +8,8 @@ pub(crate) const NEW_EXAMPLES: &str = "\
 What is written:
   mission  NAME.toml, with every section explained; `plan` and `run` take it as it is; with \
 --robot, a mission of that robot under its supervisors
+  axes     NAME.toml, a mission with axes of its own, from whose constraints speeds follow; `plan` \
+and `explain` take it as it is
   robot    NAME.toml, a robot with all that can fail on it, of which its supervisors are made; \
 `check`, `statespace`, `simulate` and `export` take it as it is
   fmeca    NAME.toml, failure modes of a small robot with every key; `fmeca` takes it as it is
@@ -22,6 +24,7 @@ on a microcontroller, in an emulator first
 
 Examples:
   $ cotama new mission hall && cotama plan hall.toml && cotama run hall.toml
+  $ cotama new axes tower && cotama plan tower.toml && cotama explain tower.toml A1
   $ cotama new robot cart && cotama check cart.toml
   $ cotama new mission round --robot cart.toml && cotama run round.toml
   $ cotama new mission tour --robot transport --floor office && cotama run tour.toml
@@ -36,6 +39,8 @@ Examples:
 pub(crate) enum NewKind {
     /// A mission file
     Mission,
+    /// A mission with performance axes of its own
+    Axes,
     /// A robot with what can fail on it, of which its supervisors are made
     Robot,
     /// A file of failure modes, their effects and criticality

@@ -16,6 +16,7 @@ pub(crate) enum SchemaName {
     Plan,
     /// The answer of `plan` for a mission with axes
     PlanAxes,
+    Explain,
     Run,
     /// The answer of `run` for a team
     RunTeam,

@@ -7,6 +7,7 @@ pub(crate) mod campaign;
 pub(crate) mod check;
 pub(crate) mod conform;
 pub(crate) mod estimate;
+pub(crate) mod explain;
 pub(crate) mod floor;
 pub(crate) mod fmeca;
 pub(crate) mod fold;

@@ -280,25 +280,19 @@ fn next(args: &RunArgs, answer: &TeamAnswer) -> String {
 /// Refuses options that only missions have.
 fn for_missions(args: &RunArgs) -> Result<(), Failure> {
     recording::no_team(&args.recording)?;
-    let planning = &args.planning;
     let given = [
         ("--objective", args.objective.is_some()),
-        ("--allocator", planning.allocator.is_some()),
-        ("--lost", !planning.lost.is_empty()),
-        ("--duration-limit", planning.duration_limit.is_some()),
-        ("--energy-limit", planning.energy_limit.is_some()),
         ("--monitor-period", args.monitor_period.is_some()),
         ("--upward", args.upward),
         ("--fidelity", args.fidelity != Fidelity::Line),
         ("--measured", args.measured.is_some()),
         ("--operator", args.operator != OperatorName::Script),
-        ("--steps", planning.steps != STEPS),
+        ("--steps", args.planning.steps != STEPS),
     ];
-    match given.into_iter().find(|it| it.1) {
+    let given = given.into_iter().find(|it| it.1).map(|it| it.0);
+    match args.planning.first().or(given) {
         None => Ok(()),
-        Some((option, _)) => {
-            Err(Failure::new(format!("{option} is for missions, and this is a team")))
-        }
+        Some(option) => Err(Failure::new(format!("{option} is for missions, and this is a team"))),
     }
 }
 

@@ -47,6 +47,8 @@ fn main() {
     let rounds = if brief { 1 } else { 15 };
     for objectives in [9, 20] {
         let text = longer(objectives);
+        let read = milliseconds(rounds, || drop(black_box(Case::parse(&text).unwrap())));
+        println!("{objectives:>2} objectives: read alone                   {read:>8.2} ms");
         let load = milliseconds(rounds, || drop(black_box(made(&text))));
         println!("{objectives:>2} objectives: read, candidates and speeds  {load:>8.2} ms");
     }

@@ -1,6 +1,7 @@
 //! Formulas of indicators: integers, `+ - *`, brackets, divisions that say how they round, `min`,
 //! `max`, and the inducers they read.
 
+pub(crate) mod forms;
 mod parser;
 
 use crate::tree::{Fault, Wrong};
@@ -72,7 +73,6 @@ enum Node {
 /// A formula, read and within its bounds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Formula {
-    text: String,
     /// Place in the file, in bytes.
     at: usize,
     /// Line and column in the file, from 1.
@@ -92,14 +92,9 @@ impl Formula {
     /// Reads a formula whose text begins at a place of the file.
     pub(crate) fn parse(text: &str, at: usize) -> Result<Self, Fault> {
         match Parser::new(text).whole() {
-            Ok(root) => Ok(Self { text: text.to_owned(), at, place: (1, 1), root }),
-            Err(fault) => Err(Fault::new(at + fault.at, fault.message)),
+            Ok(root) => Ok(Self { at, place: (1, 1), root }),
+            Err(fault) => Err(Fault { at: at + fault.at, ..fault }),
         }
-    }
-
-    /// The text of the formula.
-    pub fn text(&self) -> &str {
-        &self.text
     }
 
     /// Number of operations, numbers and inducers that the formula has.
@@ -124,7 +119,7 @@ impl Formula {
     /// Returns the same formula with the inducers that are known put in.
     pub(crate) fn given(&self, read: &impl Fn(&Inducer) -> Option<i64>) -> Result<Self, NoValue> {
         let root = self.root.given(read)?;
-        Ok(Self { text: String::new(), root, ..*self })
+        Ok(Self { root, ..*self })
     }
 
     /// Returns the inducers on which the value hangs: of `min` and `max` the part that decides.
@@ -148,14 +143,15 @@ impl Formula {
     /// Says that a value is too large for sums over a mission.
     pub(crate) fn beyond(&self, whose: &str, most: i64) -> Wrong {
         let (line, column) = self.place;
-        Wrong { line, column, message: format!("the value of `{whose}` is beyond {most}") }
+        let message = format!("the value of `{whose}` is beyond {most}");
+        Wrong { line, column, message, help: None }
     }
 
     /// Says where in the file arithmetic went wrong.
     pub(crate) fn wrong(&self, no_value: &NoValue, whose: &str) -> Wrong {
         let (line, column) = self.place;
         let message = format!("{} in the value of `{whose}`", no_value.what);
-        Wrong { line, column: column + no_value.at, message }
+        Wrong { line, column: column + no_value.at, message, help: None }
     }
 }
 
@@ -164,6 +160,17 @@ impl Node {
         match self {
             Self::Number(_) | Self::Read(_) => 1,
             Self::Binary(_, _, sides) => 1 + sides.iter().map(Self::size).sum::<u64>(),
+        }
+    }
+
+    /// The same as part of another formula, where its places mean nothing.
+    fn placeless(self) -> Self {
+        match self {
+            Self::Binary(operation, _, sides) => {
+                let sides = sides.map(Self::placeless);
+                Self::Binary(operation, 0, Box::new(sides))
+            }
+            leaf => leaf,
         }
     }
 

@@ -23,6 +23,7 @@
 //! assert_eq!(plan.totals[mission.indicator("energy.RC").unwrap()], 6_181_615);
 //! ```
 
+pub mod causes;
 mod corrections;
 mod count;
 mod dominance;
@@ -31,9 +32,11 @@ mod formula;
 mod json;
 mod mission;
 mod plan;
+pub mod raise;
 mod read;
 pub mod rule;
 mod search;
+mod speeds;
 mod steps;
 mod surrogate;
 mod table;
@@ -50,9 +53,39 @@ pub use mission::{
 };
 pub use plan::{Plan, Point, Problem};
 pub use read::{CASE_FORMAT, Case, FORMAT, MAX_BYTES};
+pub use speeds::Speeds;
 pub use steps::{STEPS, Steps, Stop};
 pub use table::{Activity, Candidate, Dropped, Reason, Table, label, speed_alone};
-pub use tree::Wrong;
+pub use tree::{Wrong, Wrongs};
 
 /// The patrol of the paper with five limited axes; the file gives the source of each value.
 pub const PATROL: &str = include_str!("../missions/patrol.toml");
+
+/// A mission with axes that comes with the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Embedded {
+    /// Name of the mission.
+    pub name: &'static str,
+    /// Description in one line.
+    pub description: &'static str,
+    /// The text of the file.
+    pub text: &'static str,
+}
+
+/// All missions with axes that come with the program.
+pub const EMBEDDED: [Embedded; 1] = [Embedded {
+    name: "patrol-axes",
+    description: "The same patrol with axes of its own: speeds follow from safety and stability, \
+                  five sums have limits",
+    text: PATROL,
+}];
+
+/// Returns the mission with axes of this name.
+///
+/// ```
+/// assert!(cotama_axes::embedded("patrol-axes").unwrap().text.contains("[[axis]]"));
+/// assert_eq!(cotama_axes::embedded("nope"), None);
+/// ```
+pub fn embedded(name: &str) -> Option<Embedded> {
+    EMBEDDED.into_iter().find(|it| it.name == name)
+}

@@ -1,6 +1,7 @@
 //! Missions with performance axes, as data (Lambert et al. 2024, Sections 2 and 6.1).
 
 use crate::formula::Formula;
+use crate::speeds::Speeds;
 
 /// Named whole numbers of a part of the mission, in the order of the file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -11,6 +12,13 @@ impl Attributes {
     pub fn get(&self, key: &str) -> Option<i64> {
         self.0.iter().find(|it| it.0 == key).map(|it| it.1)
     }
+
+    /// Puts another number in the place of one that is there.
+    pub(crate) fn set(&mut self, key: &str, value: i64) {
+        if let Some(own) = self.0.iter_mut().find(|it| it.0 == key) {
+            own.1 = value;
+        }
+    }
 }
 
 /// A mission whose performance is judged on any number of axes.
@@ -20,10 +28,8 @@ pub struct Mission {
     pub name: String,
     /// Attributes of the robot: mass, braking and the like.
     pub robot: Attributes,
-    /// The robot is never faster, mm/s.
-    pub speed_max_mm_s: i64,
-    /// Speeds are multiples of this one, mm/s.
-    pub speed_step_mm_s: i64,
+    /// Speeds that the robot drives.
+    pub speeds: Speeds,
     /// Attributes of the laptop, which has a battery of its own.
     pub laptop: Attributes,
     /// Power of motion at `v` mm/s: `c0 + c1 v / 1000 + c2 v v / 1000000` mW, rounded half up.

@@ -45,8 +45,8 @@ pub struct Candidate {
     pub options: Vec<usize>,
     /// Zero if the robot stands.
     pub speed_mm_s: i64,
-    /// Core constraints that a speed of one step more breaks, by index; none where the robot
-    /// itself is no faster, or stands.
+    /// Core constraints that the next speed breaks, by index; none where the robot itself is no
+    /// faster, or stands.
     pub bounded_by: Vec<usize>,
     /// For each indicator its value, if it applies.
     pub values: Vec<Option<i64>>,
@@ -273,7 +273,7 @@ fn reads_detector(mission: &Mission) -> bool {
     formulas.flat_map(Formula::inducers).any(|it| matches!(it, Inducer::Detector(_)))
 }
 
-fn combination(
+pub(crate) fn combination(
     mission: &Mission,
     activity: &Activity,
     options: Vec<usize>,
@@ -286,14 +286,13 @@ fn combination(
         return Ok(Err(Dropped { options, by }));
     }
     let tests = tests(mission, activity, &world, |it| !lifted.has(it))?;
-    let step = mission.speed_step_mm_s;
-    let most = if activity.travels() { mission.speed_max_mm_s / step } else { 0 };
-    let least = i64::from(activity.travels());
+    let travels = activity.travels();
+    let speeds = if travels { mission.speeds.count() } else { 1 };
     let work = 1 + tests.iter().map(|it| it.formula.size()).sum::<u64>();
     let mut broken = Vec::new();
-    for number in (least..=most).rev() {
+    for number in (0..speeds).rev() {
         steps.take(work)?;
-        let motion = world.at(number * step);
+        let motion = world.at(if travels { mission.speeds.at(number) } else { 0 });
         let bounded_by = broken;
         broken = Vec::new();
         for test in &tests {
@@ -313,6 +312,25 @@ fn combination(
         }
     }
     Ok(Err(Dropped { options, by: broken.into_iter().map(Reason::Core).collect() }))
+}
+
+/// Whether one core constraint alone holds at a speed in mm/s.
+pub(crate) fn holds_alone(
+    mission: &Mission,
+    activity: &Activity,
+    options: &[usize],
+    constraint: usize,
+    speed: i64,
+    steps: &mut Steps,
+) -> Result<bool, Stop> {
+    let world = activity.world(mission, options);
+    let tests = tests(mission, activity, &world, |it| it == constraint)?;
+    steps.take(1 + tests.iter().map(|it| it.formula.size()).sum::<u64>())?;
+    let mut holds = true;
+    for test in &tests {
+        holds &= !test.fails(&world, world.at(speed))?;
+    }
+    Ok(holds)
 }
 
 /// Returns the highest speed in whole mm/s, at most `most`, at which one core constraint alone

@@ -46,11 +46,17 @@ impl Value {
 pub(crate) struct Fault {
     pub(crate) at: usize,
     pub(crate) message: String,
+    pub(crate) help: Option<String>,
 }
 
 impl Fault {
     pub(crate) fn new(at: usize, message: impl Into<String>) -> Self {
-        Self { at, message: message.into() }
+        Self { at, message: message.into(), help: None }
+    }
+
+    /// The same with a remedy.
+    pub(crate) fn help(self, help: impl Into<String>) -> Self {
+        Self { help: Some(help.into()), ..self }
     }
 
     /// The same with its line and column.
@@ -63,7 +69,7 @@ impl Fault {
         let line = 1 + before.matches('\n').count();
         let start = before.rfind('\n').map_or(0, |it| it + 1);
         let column = 1 + before.get(start..).unwrap_or("").chars().count();
-        Wrong { line, column, message: self.message }
+        Wrong { line, column, message: self.message, help: self.help }
     }
 }
 
@@ -74,14 +80,41 @@ pub struct Wrong {
     pub line: usize,
     /// In characters, from 1.
     pub column: usize,
-    /// Cause and remedy.
+    /// Cause.
     pub message: String,
+    /// Remedy, where one is known.
+    pub help: Option<String>,
 }
 
 impl fmt::Display for Wrong {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}: {}", self.line, self.column, self.message)
+        write!(f, "{}:{}: {}", self.line, self.column, self.message)?;
+        self.help.iter().try_for_each(|it| write!(f, "; {it}"))
     }
 }
 
 impl std::error::Error for Wrong {}
+
+/// All errors of a file: at least one, in the order of their places.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Wrongs {
+    /// The first ones.
+    pub all: Vec<Wrong>,
+    /// Number of further ones.
+    pub omitted: usize,
+}
+
+impl fmt::Display for Wrongs {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (number, it) in self.all.iter().enumerate() {
+            let end = if number == 0 { "" } else { "\n" };
+            write!(f, "{end}{it}")?;
+        }
+        match self.omitted {
+            0 => Ok(()),
+            more => write!(f, "\nand {more} more"),
+        }
+    }
+}
+
+impl std::error::Error for Wrongs {}

@@ -6,7 +6,7 @@ use crate::steps::Stop;
 use crate::table::{Activity, Candidate};
 use crate::world::World;
 
-/// A core constraint that a speed of one step more breaks.
+/// A core constraint that the next speed breaks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Binding {
     /// The constraint, by index.
@@ -44,7 +44,8 @@ pub fn why(
     candidate: &Candidate,
 ) -> Result<Vec<Binding>, Stop> {
     let world = activity.world(mission, &candidate.options);
-    let motion = world.at(candidate.speed_mm_s + mission.speed_step_mm_s);
+    let Some(next) = mission.speeds.above(candidate.speed_mm_s) else { return Ok(Vec::new()) };
+    let motion = world.at(next);
     let mut bindings = Vec::new();
     for &constraint in &candidate.bounded_by {
         let Some(it) = mission.constraints.get(constraint) else { continue };

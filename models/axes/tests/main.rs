@@ -2,6 +2,8 @@
 
 mod broken;
 mod brute;
+mod edited;
+mod forms;
 mod patrol;
 mod small;
 mod speeds;

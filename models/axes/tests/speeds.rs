@@ -3,8 +3,9 @@
 
 use super::patrol::SPEEDS;
 use super::{lifted, table};
+use cotama_axes::raise::raises;
 use cotama_axes::why::why;
-use cotama_axes::{Activity, Case, PATROL, Steps, label, speed_alone};
+use cotama_axes::{Activity, Case, Lifted, PATROL, Steps, label, speed_alone};
 
 /// The speed of an activity with M5 and another option, the constraints that bind, and what each
 /// printed core constraint allows alone, in mm/s: 3000 stands for all.
@@ -74,40 +75,140 @@ fn inducers_that_bind_are_named_with_their_source() {
     assert_eq!(said(4, "T1 L1"), (vec![], vec![]));
 }
 
-/// One number changed at a time: Table 5's speeds stay from one end to the other, and no further.
-#[test]
-fn each_number_has_an_interval_in_which_table_5_stays() {
-    let stays = |key: &str, now: i64, value: i64| {
-        let now = format!("{key} = {now}");
-        let changed = PATROL.replace(&format!("{now} "), &format!("{key} = {value} "));
-        let changed = changed.replace(&format!("{now}\n"), &format!("{key} = {value}\n"));
-        assert_ne!(changed, PATROL, "{now}");
-        let case = Case::parse(&changed).unwrap();
-        let table = table(&case, lifted(&case, &["cpu", "error"]));
-        let speeds: Vec<_> = table.activities.iter().map(Activity::speed_max_mm_s).collect();
-        speeds == SPEEDS
+/// Changes of one number after which a constraint allows an activity's candidate the next speed:
+/// the number that is needed, and the speed with it.
+fn changes(case: &Case, activity: usize, options: &str, constraint: &str) -> Vec<String> {
+    let table = table(case, Lifted::default());
+    let activity = &table.activities[activity - 1];
+    let mut all = activity.candidates.iter();
+    let it = all.find(|it| label(&case.mission, &it.options) == options).unwrap();
+    let constraint = case.mission.constraint(constraint).unwrap();
+    let raises = raises(&case.mission, activity, it, constraint, &mut Steps::default()).unwrap();
+    let said = |it: &cotama_axes::raise::Raise| {
+        format!("{} {} -> {}: {}", it.name, it.now, it.needed, it.speed_mm_s)
     };
-    for (key, now, least, most) in [
-        ("mass_g", 25_000, Some(24_617), Some(25_503)),
-        ("speed_max_mm_s", 760, Some(560), None),
-        ("braking_mm_s2", 300, Some(297), Some(307)),
-        ("body_radius_mm", 250, Some(246), Some(252)),
-        ("wall_clearance_mm", 235, Some(231), Some(237)),
-        ("cycle_ms", 100, Some(87), Some(106)),
-        ("detect_ms", 420, Some(407), Some(456)),
-        ("detect_ms", 100, Some(70), Some(106)),
-        ("range_mm", 5_000, Some(604), None),
-        ("range_mm", 4_000, Some(885), None),
-        ("width_mm", 1_700, Some(1_696), Some(1_709)),
-        ("width_mm", 2_300, Some(2_240), None),
-        ("goal", 4_000, Some(3_921), Some(4_062)),
-        ("goal", 14_000, Some(13_668), Some(14_000)),
-    ] {
+    raises.iter().map(said).collect()
+}
+
+#[test]
+fn changes_that_raise_a_speed_are_the_nearest() {
+    let case = Case::parse(PATROL).unwrap();
+    assert_eq!(
+        changes(&case, 9, "M3 L1", "harmless"),
+        ["robot.mass_g 25000 -> 24616: 570", "goal 4000 -> 4063: 570"]
+    );
+    assert_eq!(
+        changes(&case, 9, "M5 L2", "frames"),
+        ["L2.frames 1 -> 0: 560", "goal 14000 -> 14001: 420"]
+    );
+    // Behind the glass the sonar counts, and the width of the hall.
+    assert_eq!(
+        changes(&case, 2, "M1 L1", "avoidance"),
+        [
+            "robot.body_radius_mm 250 -> 245: 340",
+            "robot.braking_mm_s2 300 -> 308: 340",
+            "robot.cycle_ms 100 -> 86: 340",
+            "robot.wall_clearance_mm 235 -> 230: 340",
+            "H1-out.width_mm 1700 -> 1710: 340",
+            "sonar.detect_ms 420 -> 406: 340",
+            "goal 0 -> -4468: 340",
+        ]
+    );
+}
+
+#[test]
+fn two_constraints_that_bind_at_once_must_both_give_way() {
+    let case = Case::parse(PATROL).unwrap();
+    let frames = changes(&case, 1, "M3 L2", "frames");
+    assert_eq!(frames, ["L2.frames 1 -> 0: 410", "goal 14000 -> 14001: 410"]);
+    let avoidance = changes(&case, 1, "M3 L2", "avoidance");
+    assert!(!avoidance.is_empty() && avoidance.iter().all(|it| it.ends_with(": 410")));
+}
+
+/// The patrol of a robot that knows the four printed speeds, with the printed 0.45 m/s of pictures.
+fn with_levels() -> String {
+    let step = "# inferred: printed speeds have two decimals; limits are rounded down to this\n\
+                speed_step_mm_s = 10\n";
+    assert!(PATROL.contains(step));
+    PATROL
+        .replace(step, "speed_levels_mm_s = [330, 410, 560, 760]\n")
+        .replace("goal = 14000\n", "goal = 15000\n")
+}
+
+/// Whether Table 5's speeds stay when one number of a patrol is another one.
+fn stays(patrol: &str, key: &str, now: i64, value: i64) -> bool {
+    let now = format!("{key} = {now}");
+    let changed = patrol.replace(&format!("{now} "), &format!("{key} = {value} "));
+    let changed = changed.replace(&format!("{now}\n"), &format!("{key} = {value}\n"));
+    assert!(changed != patrol || now == format!("{key} = {value}"), "{now}");
+    let case = Case::parse(&changed).unwrap();
+    let table = table(&case, lifted(&case, &["cpu", "error"]));
+    let speeds: Vec<_> = table.activities.iter().map(Activity::speed_max_mm_s).collect();
+    speeds == SPEEDS
+}
+
+/// A number of the patrol: its key, its value, and the least and the most with which Table 5 stays.
+type Interval = (&'static str, i64, Option<i64>, Option<i64>);
+
+/// Asserts that one number changed at a time keeps Table 5 from one end to the other, and no
+/// further.
+fn holds_within(patrol: &str, intervals: &[Interval]) {
+    for &(key, now, least, most) in intervals {
         let ends = [(least, -1), (most, 1)];
         for (end, beyond) in ends.into_iter().filter_map(|it| Some((it.0?, it.1))) {
-            assert!(end == now || stays(key, now, end), "{key} {end}");
-            assert!(!stays(key, now, end + beyond), "{key} {}", end + beyond);
+            assert!(end == now || stays(patrol, key, now, end), "{key} {end}");
+            assert!(!stays(patrol, key, now, end + beyond), "{key} {}", end + beyond);
         }
-        assert!(most.is_some() || stays(key, now, 10 * now), "{key}");
+        assert!(least.is_some() || stays(patrol, key, now, 1), "{key}");
+        assert!(most.is_some() || stays(patrol, key, now, 10 * now), "{key}");
     }
+}
+
+#[test]
+fn each_number_has_an_interval_in_which_table_5_stays() {
+    holds_within(
+        PATROL,
+        &[
+            ("mass_g", 25_000, Some(24_617), Some(25_503)),
+            ("speed_max_mm_s", 760, Some(560), None),
+            ("braking_mm_s2", 300, Some(297), Some(307)),
+            ("body_radius_mm", 250, Some(246), Some(252)),
+            ("wall_clearance_mm", 235, Some(231), Some(237)),
+            ("cycle_ms", 100, Some(87), Some(106)),
+            ("detect_ms", 420, Some(407), Some(456)),
+            ("detect_ms", 100, Some(70), Some(106)),
+            ("range_mm", 5_000, Some(604), None),
+            ("range_mm", 4_000, Some(885), None),
+            ("width_mm", 1_700, Some(1_696), Some(1_709)),
+            ("width_mm", 2_300, Some(2_240), None),
+            ("goal", 4_000, Some(3_921), Some(4_062)),
+            ("goal", 14_000, Some(13_668), Some(14_000)),
+        ],
+    );
+}
+
+/// With four levels the printed 0.45 m/s gives Table 5 as well, and every interval is wide.
+#[test]
+fn four_levels_give_table_5_within_wide_intervals() {
+    let patrol = with_levels();
+    assert!(stays(&patrol, "mass_g", 25_000, 25_000));
+    holds_within(
+        &patrol,
+        &[
+            ("mass_g", 25_000, None, Some(25_503)),
+            ("speed_max_mm_s", 760, Some(560), None),
+            ("braking_mm_s2", 300, Some(297), Some(553)),
+            ("body_radius_mm", 250, Some(122), Some(252)),
+            ("wall_clearance_mm", 235, Some(107), Some(237)),
+            ("cycle_ms", 100, None, Some(106)),
+            ("detect_ms", 420, Some(107), Some(456)),
+            ("detect_ms", 100, None, Some(106)),
+            ("range_mm", 5_000, Some(604), None),
+            ("range_mm", 4_000, Some(885), None),
+            ("width_mm", 1_700, Some(1_696), Some(1_957)),
+            ("width_mm", 2_300, Some(2_240), None),
+            ("goal", 4_000, Some(3_921), None),
+            ("goal", 15_000, Some(13_668), Some(18_667)),
+        ],
+    );
 }

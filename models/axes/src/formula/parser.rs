@@ -1,6 +1,7 @@
 //! The text of a formula, read by descent: sums of products of atoms.
 
 use super::{Inducer, Node, Operation};
+use crate::fields::near;
 use crate::tree::Fault;
 
 /// A formula has at most so many operations, numbers and inducers.
@@ -128,8 +129,12 @@ impl<'t> Parser<'t> {
                 _ => {
                     let known = "length_mm, speed_mm_s, duration_ms, motion_mw, robot.KEY, \
                          laptop.KEY, option(KEY), hardware(KEY), zone_min(KEY), detector(KEY)";
-                    let message = format!("unknown inducer `{word}`; there are: {known}");
-                    return Err(Fault::new(at, message));
+                    if let Some(near) = near(&word, known.split(", ")) {
+                        let fault = Fault::new(at, format!("unknown inducer `{word}`"));
+                        return Err(fault.help(format!("did you mean `{near}`?")));
+                    }
+                    let message = format!("unknown inducer `{word}`");
+                    return Err(Fault::new(at, message).help(format!("there are: {known}")));
                 }
             },
         };
@@ -163,8 +168,8 @@ impl<'t> Parser<'t> {
             _ => {
                 let known = "div_down, div_up, div_near, min, max, option, hardware, zone_min, \
                      detector";
-                let message = format!("unknown function `{name}`; there are: {known}");
-                return Err(Fault::new(at, message));
+                let message = format!("unknown function `{name}`");
+                return Err(Fault::new(at, message).help(format!("there are: {known}")));
             }
         };
         let mut left = self.sum(below)?;
