@@ -1,6 +1,7 @@
 //! `cotama plan` of a mission with performance axes of its own.
 
 pub(crate) mod explain;
+pub(crate) mod run;
 
 use crate::allocate::exit;
 use crate::answers::Status;

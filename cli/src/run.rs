@@ -2,6 +2,7 @@
 
 use crate::answers::{Outcome, RunAnswer, RunBody};
 use crate::args::{Fidelity, Lost, OperatorName, RunArgs};
+use crate::axes;
 use crate::exit::{Exit, Failure};
 use crate::infeasible;
 use crate::input;
@@ -51,6 +52,9 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
     }
     if let Some(team) = Chosen::of(&args.mission.mission)? {
         return team::run(args, &team, screen);
+    }
+    if axes::is(&args.mission.mission) {
+        return axes::run::run(args, screen);
     }
     team::none_given(args)?;
     team::not_meant(&args.mission.mission)?;

@@ -52,6 +52,7 @@ fn add_named(part: &Value, all: &Value, named: &mut BTreeMap<String, Value>) {
 mod tests {
     use crate::answers::assign::AssignAnswer;
     use crate::answers::axes::AxesAnswer;
+    use crate::answers::axes_run::AxesRunAnswer;
     use crate::answers::campaign::CampaignAnswer;
     use crate::answers::check::{CheckAnswer, StatespaceAnswer, VerifyAnswer};
     use crate::answers::conform::ConformAnswer;
@@ -96,6 +97,7 @@ mod tests {
             ("plan-axes", of::<AxesAnswer>()),
             ("explain", of::<ExplainAnswer>()),
             ("run", of::<RunAnswer>()),
+            ("run-axes", of::<AxesRunAnswer>()),
             ("run-team", of::<TeamAnswer>()),
             ("allocate", of::<AllocateAnswer>()),
             ("assign", of::<AssignAnswer>()),

@@ -7,6 +7,7 @@ mod allocate;
 mod asked;
 mod assign;
 mod axes;
+mod axes_run;
 mod bad_input;
 mod book;
 mod broken_pnml;

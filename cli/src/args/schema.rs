@@ -18,6 +18,8 @@ pub(crate) enum SchemaName {
     PlanAxes,
     Explain,
     Run,
+    /// The answer of `run` for a mission with axes
+    RunAxes,
     /// The answer of `run` for a team
     RunTeam,
     Allocate,

@@ -3,6 +3,7 @@
 pub(crate) mod allocate;
 pub(crate) mod assign;
 pub(crate) mod axes;
+pub(crate) mod axes_run;
 pub(crate) mod campaign;
 pub(crate) mod check;
 pub(crate) mod conform;

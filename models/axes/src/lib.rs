@@ -26,6 +26,7 @@
 pub mod causes;
 mod corrections;
 mod count;
+mod course;
 mod dominance;
 mod fields;
 mod formula;
@@ -46,6 +47,7 @@ pub mod why;
 mod world;
 
 pub use corrections::{Infeasible, Single};
+pub use course::{Course, Event, ModelError, Return, Script, What};
 pub use formula::{Formula, Inducer};
 pub use mission::{
     Ask, Attributes, Axis, Constraint, DetectBy, Hardware, Indicator, Kind, LOCALISATION, Lifted,

@@ -3,7 +3,9 @@
 
 mod judged;
 mod parts;
+mod run;
 
+use crate::course::Course;
 use crate::fields::{Faults, Fields, LARGEST, integer, wrong_type};
 use crate::mission::{Ask, Attributes, DetectBy, Hardware, Mission};
 use crate::speeds::Speeds;
@@ -40,6 +42,8 @@ pub struct Case {
     pub mission: Mission,
     /// Wishes; the first counts most.
     pub ask: Vec<Ask>,
+    /// What happens on the way, and the return that is asked for.
+    pub course: Course,
 }
 
 impl Case {
@@ -89,10 +93,11 @@ fn read(text: &str, faults: &Faults) -> Option<Case> {
         FORMAT => {
             let name = fields.name("name").1;
             let mut reader = Reader::new(name, true, faults);
-            reader.mission(&mut fields);
+            let length = reader.mission(&mut fields);
+            let course = reader.run(fields.optional("run"), length);
             let case = reader.ask(&mut fields);
             fields.finish();
-            Some(case)
+            Some(Case { course, ..case })
         }
         _ => {
             let help = format!("there are: {FORMAT}, {CASE_FORMAT}");
@@ -130,7 +135,8 @@ impl<'f> Reader<'f> {
         Self { mission, is_strict, faults }
     }
 
-    fn mission(&mut self, fields: &mut Fields<'_, 'f>) {
+    /// Reads the mission; returns the length of its path.
+    fn mission(&mut self, fields: &mut Fields<'_, 'f>) -> i64 {
         // Where the length is not known, no place is beyond it.
         let length = fields.integer("path_length_mm", 0, LARGEST).unwrap_or(LARGEST);
         match fields.required("robot") {
@@ -171,6 +177,7 @@ impl<'f> Reader<'f> {
         fields.list("zone", MAX_ZONES).iter().for_each(|it| self.zone(it, length));
         self.axes(fields.list("axis", MAX_AXES));
         fields.list("constraint", MAX_CONSTRAINTS).iter().for_each(|it| self.constraint(it));
+        length
     }
 
     /// Reads the robot; its step and its most stay attributes, too: a formula may read them.

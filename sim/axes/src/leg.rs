@@ -1,6 +1,6 @@
 //! A part of the way that is driven, or a task for which the robot stands, with one candidate.
 
-use cotama_axes::{Activity, Candidate, Mission};
+use cotama_axes::{Activity, Candidate, Mission, ModelError, Script};
 
 /// An activity under way.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -15,6 +15,15 @@ pub(crate) struct Leg {
     /// up.
     planned: Vec<i64>,
     real: Vec<i64>,
+}
+
+/// Returns the real part of a planned value in some zones, in parts of a thousand.
+pub(crate) fn real_factor(script: &Script, indicator: usize, zones: &[usize]) -> i64 {
+    let holds = |it: &&ModelError| {
+        it.indicator == indicator && it.zone.is_none_or(|it| zones.contains(&it))
+    };
+    let error: i64 = script.errors.iter().filter(holds).map(|it| it.permille).sum();
+    (1_000 + error).max(0)
 }
 
 /// Returns a share of a value, rounded down.

@@ -8,14 +8,8 @@ pub(crate) struct Limit {
     /// The constraint, by index.
     pub(crate) constraint: usize,
     pub(crate) indicator: usize,
-    /// The most that a sum may be, or the least.
-    bound: Bound,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Bound {
-    Most(i64),
-    Least(i64),
+    relation: Relation,
+    goal: i64,
 }
 
 impl Limit {
@@ -23,32 +17,24 @@ impl Limit {
     /// equality, which no run can keep.
     pub(crate) fn all(mission: &Mission) -> Result<Vec<Self>, usize> {
         let end = mission.constraints.iter().enumerate().filter(|it| it.1.kind == Kind::End);
-        end.map(|(constraint, it)| {
-            let bound = match it.relation {
-                Relation::AtMost => Bound::Most(it.goal),
-                Relation::Below => Bound::Most(it.goal.saturating_sub(1)),
-                Relation::AtLeast => Bound::Least(it.goal),
-                Relation::Above => Bound::Least(it.goal.saturating_add(1)),
-                Relation::Equal => return Err(constraint),
-            };
-            Ok(Self { constraint, indicator: it.indicator, bound })
+        end.map(|(constraint, it)| match it.relation {
+            Relation::Equal => Err(constraint),
+            relation => Ok(Self { constraint, indicator: it.indicator, relation, goal: it.goal }),
         })
         .collect()
     }
 
     /// Returns the margin of a final value (equation 7; the sign turned for an `at least`).
     pub(crate) const fn margin(&self, value: i64) -> i64 {
-        match self.bound {
-            Bound::Most(most) => most - value,
-            Bound::Least(least) => value - least,
-        }
+        self.relation.margin(value, self.goal)
     }
 
     /// Returns the most that a sum may be, where that is what is limited.
     pub(crate) const fn most(&self) -> Option<i64> {
-        match self.bound {
-            Bound::Most(most) => Some(most),
-            Bound::Least(_) => None,
+        match self.relation {
+            Relation::AtMost => Some(self.goal),
+            Relation::Below => Some(self.goal - 1),
+            Relation::Equal | Relation::AtLeast | Relation::Above => None,
         }
     }
 }

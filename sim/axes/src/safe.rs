@@ -3,30 +3,12 @@
 use crate::leg::up;
 use crate::limits::Limit;
 use crate::run::NotRun;
-use cotama_axes::{Candidate, Lifted, Mission, Steps, Stop, Table};
+use cotama_axes::{Candidate, Lifted, Mission, Return, Steps, Stop, Table};
 
-/// What a return withstands: all of it together, at any time.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Return {
-    /// Units of hardware, by its index, that may be lost.
-    pub losses: Vec<(usize, i64)>,
-    /// By how much real values may exceed planned ones, by indicator in parts of a thousand.
-    pub errors: Vec<(usize, i64)>,
-    /// How much events may cost in all, by indicator.
-    pub costs: Vec<(usize, i64)>,
-}
-
-impl Return {
-    /// Returns the factor of an indicator, in parts of a thousand.
-    pub(crate) fn factor(&self, indicator: usize) -> i64 {
-        let own = self.errors.iter().filter(|it| it.0 == indicator);
-        1_000 + own.map(|it| it.1.max(0)).max().unwrap_or(0)
-    }
-
-    /// Returns how much events may cost in all.
-    pub(crate) fn cost(&self, indicator: usize) -> i64 {
-        self.costs.iter().filter(|it| it.0 == indicator).map(|it| it.1.max(0)).sum()
-    }
+/// Returns the most that an indicator may be, in parts of a thousand of what is planned.
+pub(crate) fn factor(stated: &Return, indicator: usize) -> i64 {
+    let own = stated.errors.iter().filter(|it| it.0 == indicator);
+    1_000 + own.map(|it| it.1.max(0)).max().unwrap_or(0)
 }
 
 /// A stretch of the path, or a task, with the options that are taken for safety.
@@ -93,7 +75,7 @@ impl Safe {
             }
             let costs = least.map(|(_, it)| {
                 let sums = mission.indicators.iter().enumerate();
-                let cost = |at: usize| up(it.value(at), stated.factor(at), 1_000);
+                let cost = |at: usize| up(it.value(at), factor(stated, at), 1_000);
                 sums.map(|(at, it)| if it.adds_up { cost(at) } else { 0 }).collect()
             });
             stretches.push(Stretch {
@@ -146,7 +128,7 @@ impl Stretch {
 /// Returns how much of the tightest limit a candidate takes, in parts of a million.
 fn load(candidate: &Candidate, stated: &Return, limits: &[Limit]) -> i128 {
     let of = |it: &Limit| {
-        let cost = up(candidate.value(it.indicator), stated.factor(it.indicator), 1_000);
+        let cost = up(candidate.value(it.indicator), factor(stated, it.indicator), 1_000);
         let most = i128::from(it.most()?.max(1));
         Some(i128::from(cost) * 1_000_000 / most)
     };

@@ -1,11 +1,12 @@
 //! The robot on its way, second after second.
 
-use crate::leg::Leg;
+use crate::leg::{Leg, real_factor};
 use crate::limits::Limit;
 use crate::run::{Cause, Choice, NotRun, Outcome, Planned, Run};
 use crate::safe::{Safe, without};
-use crate::script::{Course, What};
-use cotama_axes::{Activity, Ask, Case, Lifted, Mission, Plan, Problem, Steps, Stop, Table};
+use cotama_axes::{
+    Activity, Ask, Case, Course, Lifted, Mission, Plan, Problem, Steps, Stop, Table, What,
+};
 
 mod safety;
 
@@ -64,8 +65,8 @@ struct Tour<'m> {
 ///
 /// # Errors
 /// A [`NotRun`] where the robot does not leave.
-pub fn run(case: &Case, course: &Course) -> Result<Run, NotRun> {
-    let mission = &case.mission;
+pub fn run(case: &Case) -> Result<Run, NotRun> {
+    let (mission, course) = (&case.mission, &case.course);
     let limits = Limit::all(mission).map_err(NotRun::Equality)?;
     let mut steps = Steps::default();
     let stated = course.home.as_ref();
@@ -121,7 +122,7 @@ impl Tour<'_> {
             let candidate = activity.candidates.get(choice).filter(|it| self.works(&it.options));
             let Some(candidate) = candidate else { return Outcome::Stopped };
             let script = &self.course.script;
-            let factor = |it: usize| script.factor(it, &activity.zones);
+            let factor = |it: usize| real_factor(script, it, &activity.zones);
             let leg = Leg::new(self.mission, activity, candidate, factor);
             self.objective = self.rest.before + activity.objective;
             match self.go(leg) {

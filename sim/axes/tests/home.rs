@@ -1,8 +1,8 @@
 //! The return that is kept: random missions with the faults that were stated.
 #![allow(clippy::unwrap_used)]
 
-use cotama_axes::{Case, Mission};
-use cotama_axes_run::{Course, Event, ModelError, NotRun, Outcome, Return, Run, Script, What, run};
+use cotama_axes::{Case, Course, Event, Mission, ModelError, Return, Script, What};
+use cotama_axes_run::{NotRun, Outcome, Run, run};
 use cotama_streams::{Stream, Streams};
 use std::fmt::Write;
 
@@ -120,11 +120,13 @@ fn pair(number: u64) -> Option<[Run; 2]> {
     let mut stream = Streams::new(number).stream("mission");
     let case = Case::parse(&mission(&mut stream)).unwrap();
     let (stated, script) = faults(&case.mission, &mut stream);
-    let with = |home| match run(&case, &Course { script: script.clone(), home }) {
-        Ok(run) => Some(run),
-        Err(NotRun::NoPlan | NotRun::NoReturn(_)) => None,
-        Err(why) => panic!("{number}: {why:?}"),
-    };
+    let with =
+        |home| match run(&Case { course: Course { script: script.clone(), home }, ..case.clone() })
+        {
+            Ok(run) => Some(run),
+            Err(NotRun::NoPlan | NotRun::NoReturn(_)) => None,
+            Err(why) => panic!("{number}: {why:?}"),
+        };
     Some([with(None)?, with(Some(stated))?])
 }
 

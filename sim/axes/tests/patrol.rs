@@ -1,8 +1,8 @@
 //! The patrol with five limited axes on its way.
 #![allow(clippy::unwrap_used)]
 
-use cotama_axes::{Ask, Case, PATROL, Sense};
-use cotama_axes_run::{Cause, Course, Event, ModelError, Outcome, Run, Script, What, run};
+use cotama_axes::{Ask, Case, Course, Event, ModelError, PATROL, Script, Sense, What};
+use cotama_axes_run::{Cause, Outcome, Run, run};
 
 fn patrol() -> Case {
     Case::parse(PATROL).unwrap()
@@ -13,7 +13,7 @@ fn of(case: &Case, indicator: &str) -> usize {
 }
 
 fn driven(case: &Case, script: Script) -> Run {
-    run(case, &Course { script, home: None }).unwrap()
+    run(&Case { course: Course { script, home: None }, ..case.clone() }).unwrap()
 }
 
 fn error(case: &Case, indicator: &str, permille: i64) -> Script {

@@ -2,6 +2,7 @@
 
 use super::parts::Keys;
 use super::{Case, Reader};
+use crate::course::Course;
 use crate::fields::{
     Faults, Fields, LARGEST, distinct, index_of, near, text, there_are, wrong_type,
 };
@@ -183,7 +184,7 @@ impl Reader<'_> {
             }
             Some((node, _)) => self.faults.say(node.at, form),
         }
-        Case { mission: self.mission, ask }
+        Case { mission: self.mission, ask, course: Course::default() }
     }
 
     fn wish(&self, pair: &[Node], ask: &mut Vec<Ask>) {

@@ -1,12 +1,11 @@
 //! The return that is kept, on the way.
 
 use super::{After, Rest, Tour};
-use crate::leg::{Leg, up};
+use crate::leg::{Leg, real_factor, up};
 use crate::limits::Limit;
 use crate::run::Outcome;
-use crate::safe::Safe;
-use crate::script::What;
-use cotama_axes::{Activity, Table};
+use crate::safe::{Safe, factor};
+use cotama_axes::{Activity, Table, What};
 
 impl Tour<'_> {
     /// Asks before some ms more whether the robot could then still be home or done; if not, it
@@ -19,7 +18,7 @@ impl Tour<'_> {
         let ms = if leg.travels() { ms } else { leg.left_ms() };
         let most = |it: &Limit| {
             let used = self.used_in(leg, it.indicator);
-            used + leg.most_in(ms, it.indicator, safe.stated.factor(it.indicator))
+            used + leg.most_in(ms, it.indicator, factor(&safe.stated, it.indicator))
         };
         let (objective, x_mm) = (self.objective + usize::from(!leg.travels()), leg.x_mm(ms));
         if self.fits_home(safe, x_mm, &most) || self.fits_ahead(safe, objective, x_mm, &most) {
@@ -36,7 +35,8 @@ impl Tour<'_> {
             What::Costs(costs) => Some(costs.iter().filter(|it| it.0 == indicator).map(|it| it.1)),
             What::Lost(..) => None,
         });
-        (safe.stated.cost(indicator) - cost.flatten().sum::<i64>()).max(0)
+        let stated = safe.stated.costs.iter().filter(|it| it.0 == indicator).map(|it| it.1);
+        (stated.sum::<i64>() - cost.flatten().sum::<i64>()).max(0)
     }
 
     fn fits(
@@ -111,7 +111,7 @@ impl Tour<'_> {
             let length = activity.x_end_mm - activity.x_start_mm;
             for (at, used) in self.used.iter_mut().enumerate() {
                 let is_sum = self.mission.indicators.get(at).is_some_and(|it| it.adds_up);
-                let factor = self.course.script.factor(at, &activity.zones);
+                let factor = real_factor(&self.course.script, at, &activity.zones);
                 let real = up(candidate.value(at), factor, 1_000);
                 *used += if is_sum { up(real, way, length) } else { 0 };
             }

@@ -1,13 +1,11 @@
-//! What happens on the way that no model knows.
-
-use crate::safe::Return;
+//! What happens on the way that no formula knows, and the return that a mission asks for.
 
 /// A mission's way through the world: what happens, and what must never happen.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Course {
     /// What happens.
     pub script: Script,
-    /// The return that is kept, where one is.
+    /// The return that is kept, where the mission asks for one.
     pub home: Option<Return>,
 }
 
@@ -49,13 +47,13 @@ pub struct ModelError {
     pub permille: i64,
 }
 
-impl Script {
-    /// Returns the factor of an indicator in some zones, in parts of a thousand.
-    pub(crate) fn factor(&self, indicator: usize, zones: &[usize]) -> i64 {
-        let holds = |it: &&ModelError| {
-            it.indicator == indicator && it.zone.is_none_or(|it| zones.contains(&it))
-        };
-        let error: i64 = self.errors.iter().filter(holds).map(|it| it.permille).sum();
-        (1_000 + error).max(0)
-    }
+/// What a return withstands: all of it together, at any time.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Return {
+    /// Units of hardware, by its index, that may be lost.
+    pub losses: Vec<(usize, i64)>,
+    /// By how much real values may exceed planned ones, by indicator in parts of a thousand.
+    pub errors: Vec<(usize, i64)>,
+    /// How much events may cost in all, by indicator.
+    pub costs: Vec<(usize, i64)>,
 }
