@@ -100,7 +100,10 @@ fn named(program: clap::Command) -> clap::Command {
     let teams = Team::ALL.iter().map(|it| it.0.name());
     let run: Vec<_> = missions.iter().copied().chain(teams).collect();
     let program = of("run", "mission", &run, program);
-    ["plan", "table"].iter().fold(program, |it, command| of(command, "mission", &missions, it))
+    let program = of("table", "mission", &missions, program);
+    let with_axes: Vec<_> = cotama_axes::EMBEDDED.iter().map(|it| it.name).collect();
+    let program = of("explain", "mission", &with_axes, program);
+    of("plan", "mission", &[missions, with_axes].concat(), program)
 }
 
 /// `cotama man`: a manual page.

@@ -13,6 +13,7 @@ use crate::exit::{Exit, Failure};
 use crate::file_errors::FileErrors;
 use crate::input;
 use crate::kind::{self, Kind};
+use crate::names::quoted;
 use crate::output::Screen;
 use crate::render;
 use cotama_axes::why::{Binding, Cause, why};
@@ -32,7 +33,8 @@ pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
     if args.json.json {
         Screen::json(&answer)?;
     } else {
-        screen.print(&render::axes::screen(&case.mission, &answer, screen.width()))?;
+        let next = Some(format!("cotama explain {}", quoted(&args.mission.mission)));
+        screen.print(&render::axes::screen(&case.mission, &answer, next, screen.width()))?;
     }
     Ok(exit(answer.status))
 }

@@ -6,9 +6,11 @@ use crate::exit::{Exit, Failure};
 use crate::model::{self, Found};
 use crate::names::near;
 use crate::output::{self, Screen};
+use crate::render;
 use crate::render::style::NAME;
 use crate::render::visible;
 use clap::ValueEnum;
+use cotama_axes::causes::Causes;
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::net::{Net, TransitionId};
 use cotama_core::system::System;
@@ -86,14 +88,15 @@ fn causes(args: &ExportArgs, format: Format, screen: &Screen) -> Result<Exit, Fa
         let message = format!("{option} is for models, and `{name}` is a mission with axes");
         return Err(Failure::new(message).help(format!("leave {option} out")));
     }
-    let mission = axes::File::load(name)?.case.mission;
+    let causes = Causes::of(&axes::File::load(name)?.case.mission);
     let text = match format {
-        Format::Dot => cotama_axes::causes::dot(&mission),
-        Format::Mermaid => cotama_axes::causes::mermaid(&mission),
+        Format::Dot => causes.dot(),
+        Format::Mermaid => causes.mermaid(),
+        Format::Svg => render::causes::svg(&causes),
         other => {
             let message = format!("{}: no format for causes and effects", self::name(other));
             return Err(Failure::new(message)
-                .help(format!("`{name}` is a mission with axes: --format dot|mermaid")));
+                .help(format!("`{name}` is a mission with axes: --format dot|mermaid|svg")));
         }
     };
     put(&text, args.output.as_deref(), screen)?;

@@ -49,7 +49,8 @@ fn a_mission_without_a_plan_blames_a_constraint_or_names_several() {
     let lines = [("located", 1_075), ("data", 248_159)].map(|(name, goal)| {
         format!("  without `{name}` there is a plan; a goal of {goal} suffices\n")
     });
-    assert!(shown.ends_with(&lines.concat()), "{shown}");
+    let end = lines.concat() + "\nnext: cotama explain data.toml\n";
+    assert!(shown.ends_with(&end), "{shown}");
     let both = PATROL.replace("goal = 450000", "goal = 90000").replace("goal = 600000", "goal = 9");
     folder.write("both.toml", both);
     let answer = folder.cotama(&["plan", "both.toml", "--json"]).json(1);
@@ -86,7 +87,8 @@ fn a_mission_with_axes_is_found_by_its_name() {
     let folder = Folder::new("axes_named");
     folder.write("patrol.toml", PATROL);
     let [named, read] = ["patrol-axes", "patrol.toml"].map(|it| folder.cotama(&["plan", it]));
-    assert_eq!((named.code, &named.stdout), (Some(0), &read.stdout));
+    let renamed = read.stdout.replace("explain patrol.toml", "explain patrol-axes");
+    assert_eq!((named.code, &named.stdout), (Some(0), &renamed));
     assert_eq!(folder.cotama(&["show", "patrol-axes"]).stdout, PATROL);
     let listed = folder.cotama(&["list", "--json"]).json(0);
     let missions = listed["missions"].as_array().unwrap();
@@ -188,9 +190,10 @@ fn causes_and_effects_are_drawn_by_other_tools() {
     let export = |format: &str| folder.cotama(&["export", "patrol-axes", "--format", format]);
     golden("causes.dot", &export("dot").stdout);
     golden("causes.mmd", &export("mermaid").stdout);
+    golden("causes.svg", &export("svg").stdout);
     let refused = export("pnml");
     assert_eq!(refused.code, Some(2));
-    assert!(refused.stderr.contains("--format dot|mermaid"), "{refused:?}");
+    assert!(refused.stderr.contains("--format dot|mermaid|svg"), "{refused:?}");
     let style = ["export", "patrol-axes", "--output", "a.dot", "--style", "net"];
     assert_eq!(folder.cotama(&style).code, Some(2));
 }

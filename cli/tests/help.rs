@@ -119,6 +119,8 @@ fn names_of_models_and_missions_are_completed() {
     assert_eq!(complete("check watc"), "watchdog\n");
     assert_eq!(complete("conform cross"), "crossing\n");
     assert_eq!(complete("run pat"), "patrol\n");
+    assert_eq!(complete("plan pat"), "patrol patrol-axes\n");
+    assert_eq!(complete("explain pat"), "patrol-axes\n");
     assert_eq!(complete("check nope"), "\n");
 }
 

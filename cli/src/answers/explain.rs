@@ -94,6 +94,7 @@ pub(crate) struct RaiseRow {
     pub(crate) now: i64,
     /// The nearest number at which the constraint allows the next speed.
     pub(crate) needed: i64,
-    /// The candidate's speed with it; today's where another constraint holds it too.
+    /// The candidate's speed with it; today's where another constraint holds it too, zero where
+    /// one removes it then.
     pub(crate) speed_mm_s: i64,
 }

@@ -14,8 +14,13 @@ use std::fmt::Write;
 /// The most activities that are shown.
 const SHOWN: usize = 200;
 
-/// The screen.
-pub(crate) fn screen(mission: &Mission, answer: &AxesAnswer, width: usize) -> String {
+/// The screen; `next` is a command that suggests itself.
+pub(crate) fn screen(
+    mission: &Mission,
+    answer: &AxesAnswer,
+    next: Option<String>,
+    width: usize,
+) -> String {
     let activities = count(answer.activities.len() as u64, "activity");
     let mut text = format!(
         "{HEADING}{}{HEADING:#}: {}, {}, {} combinations\n",
@@ -35,7 +40,7 @@ pub(crate) fn screen(mission: &Mission, answer: &AxesAnswer, width: usize) -> St
     text += &removed(answer, width);
     let _ = writeln!(text, "\n{HEADING}P2{HEADING:#} {}", status(answer.status));
     text += &totals(mission, answer).render(width);
-    text + &reason(answer, width)
+    text + &reason(answer, width) + &super::next(next)
 }
 
 /// Names of axes with their indicators, the inducers that each reads, and its constraints.

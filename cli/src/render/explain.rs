@@ -168,10 +168,10 @@ fn bound(of: &HeldRow, it: &BindingRow, next: i64, width: usize) -> String {
     }
     for raise in &it.raises {
         let way = if raise.needed < raise.now { "at most" } else { "at least" };
-        let speed = if raise.speed_mm_s > 0 && raise.speed_mm_s < next {
-            format!("{name} allows {next} mm/s")
-        } else {
-            format!("allows {} mm/s", raise.speed_mm_s)
+        let speed = match raise.speed_mm_s {
+            0 => format!("{name} allows {next} mm/s, and another constraint removes it"),
+            speed if speed < next => format!("{name} allows {next} mm/s"),
+            speed => format!("allows {speed} mm/s"),
         };
         let what = visible(&raise.name);
         let line = format!("{what} {way} {} (now {}): {speed}", raise.needed, raise.now);

@@ -5,6 +5,7 @@ pub(crate) mod assign;
 pub(crate) mod axes;
 pub(crate) mod axes_run;
 pub(crate) mod campaign;
+pub(crate) mod causes;
 pub(crate) mod check;
 pub(crate) mod conform;
 pub(crate) mod estimate;

@@ -2,74 +2,109 @@
 //! Sections 2.2 and 6.1, Table 2).
 
 use crate::formula::Formula;
-use crate::mission::{Axis, Constraint, Indicator, Mission};
+use crate::mission::{Constraint, Indicator, Mission};
 use std::fmt::Write;
 
-/// Returns the diagram as a graph for Graphviz.
-///
-/// ```
-/// let case = cotama_axes::Case::parse(cotama_axes::PATROL).unwrap();
-/// let dot = cotama_axes::causes::dot(&case.mission);
-/// assert!(dot.contains("\"i:robot.mass_g\" -> \"safety.impact\""));
-/// ```
-pub fn dot(mission: &Mission) -> String {
-    let escaped = |text: &str| text.replace('\\', "\\\\").replace('"', "\\\"");
-    let mut text = format!("digraph \"{}\" {{\n  rankdir=LR;\n", escaped(&mission.name));
-    text += "  node [shape=box, fontname=\"sans-serif\"];\n";
-    let inducers = inducers(mission);
-    for it in &inducers {
-        let it = escaped(it);
-        let _ = writeln!(text, "  \"i:{it}\" [label=\"{it}\", style=rounded];");
-    }
-    for it in &mission.indicators {
-        let lines = lines(mission, it).map(|it| escaped(&it)).collect::<Vec<_>>().join("\\n");
-        let _ = writeln!(text, "  \"{}\" [label=\"{lines}\"];", escaped(&it.id));
-    }
-    for it in &mission.axes {
-        let it = escaped(&it.id);
-        let _ = writeln!(text, "  \"a:{it}\" [label=\"{it}\", shape=ellipse];");
-    }
-    for it in &mission.indicators {
-        for inducer in read_by(it) {
-            let _ = writeln!(text, "  \"i:{}\" -> \"{}\";", escaped(&inducer), escaped(&it.id));
-        }
-    }
-    for (axis, it) in of_axes(mission) {
-        let _ = writeln!(text, "  \"{}\" -> \"a:{}\";", escaped(&it.id), escaped(&axis.id));
-    }
-    text + "}\n"
+/// Inducers, indicators and axes, and which acts on which.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Causes {
+    /// Name of the mission.
+    pub mission: String,
+    /// Names of inducers, in alphabetical order, each once.
+    pub inducers: Vec<String>,
+    /// Indicators, in the order of the file.
+    pub effects: Vec<Effect>,
+    /// Names of axes.
+    pub axes: Vec<String>,
 }
 
-/// Returns the diagram for Mermaid.
-///
-/// ```
-/// let case = cotama_axes::Case::parse(cotama_axes::PATROL).unwrap();
-/// assert!(cotama_axes::causes::mermaid(&case.mission).starts_with("flowchart LR\n"));
-/// ```
-pub fn mermaid(mission: &Mission) -> String {
-    let mut text = "flowchart LR\n".to_owned();
-    let inducers = inducers(mission);
-    for (number, it) in inducers.iter().enumerate() {
-        let _ = writeln!(text, "  i{number}([\"{}\"])", entities(it));
+/// An indicator.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Effect {
+    /// Its name and unit, then a line for each of its constraints.
+    pub lines: Vec<String>,
+    /// The inducers that act on it, by index.
+    pub inducers: Vec<usize>,
+    /// Its axis, by index.
+    pub axis: usize,
+}
+
+impl Causes {
+    /// Finds what acts on what in a mission.
+    ///
+    /// ```
+    /// use cotama_axes::{Case, PATROL, causes::Causes};
+    /// let causes = Causes::of(&Case::parse(PATROL).unwrap().mission);
+    /// let impact = &causes.effects[0];
+    /// assert_eq!(impact.lines, ["safety.impact, mJ", "harmless < 4000"]);
+    /// let names: Vec<_> = impact.inducers.iter().map(|&it| &causes.inducers[it]).collect();
+    /// assert_eq!(names, ["robot.mass_g", "speed_mm_s"]);
+    /// ```
+    pub fn of(mission: &Mission) -> Self {
+        let mut inducers: Vec<_> = mission.indicators.iter().flat_map(read_by).collect();
+        inducers.sort();
+        inducers.dedup();
+        let effect = |(number, it): (usize, &Indicator)| Effect {
+            lines: lines(mission, number, it),
+            inducers: read_by(it).iter().filter_map(|it| inducers.binary_search(it).ok()).collect(),
+            axis: it.axis,
+        };
+        let effects = mission.indicators.iter().enumerate().map(effect).collect();
+        let axes = mission.axes.iter().map(|it| it.id.clone()).collect();
+        Self { mission: mission.name.clone(), inducers, effects, axes }
     }
-    for (number, it) in mission.indicators.iter().enumerate() {
-        let lines = lines(mission, it).map(|it| entities(&it)).collect::<Vec<_>>().join("<br>");
-        let _ = writeln!(text, "  n{number}[\"{lines}\"]");
-    }
-    for (number, it) in mission.axes.iter().enumerate() {
-        let _ = writeln!(text, "  a{number}{{{{\"{}\"}}}}", entities(&it.id));
-    }
-    for (number, it) in mission.indicators.iter().enumerate() {
-        for inducer in read_by(it) {
-            if let Ok(from) = inducers.binary_search(&inducer) {
-                let _ = writeln!(text, "  i{from} --> n{number}");
-            }
+
+    /// Returns the diagram as a graph for Graphviz.
+    pub fn dot(&self) -> String {
+        let escaped = |text: &str| text.replace('\\', "\\\\").replace('"', "\\\"");
+        let mut text = format!("digraph \"{}\" {{\n  rankdir=LR;\n", escaped(&self.mission));
+        text += "  node [shape=box, fontname=\"sans-serif\"];\n";
+        for (number, it) in self.inducers.iter().enumerate() {
+            let _ = writeln!(text, "  i{number} [label=\"{}\", style=rounded];", escaped(it));
         }
+        for (number, it) in self.effects.iter().enumerate() {
+            let lines: Vec<_> = it.lines.iter().map(|it| escaped(it)).collect();
+            let _ = writeln!(text, "  n{number} [label=\"{}\"];", lines.join("\\n"));
+        }
+        for (number, it) in self.axes.iter().enumerate() {
+            let _ = writeln!(text, "  a{number} [label=\"{}\", shape=ellipse];", escaped(it));
+        }
+        for (from, to) in self.arrows() {
+            let _ = writeln!(text, "  {from} -> {to};");
+        }
+        text + "}\n"
     }
-    for (number, it) in mission.indicators.iter().enumerate() {
-        let _ = writeln!(text, "  n{number} --> a{}", it.axis);
+
+    /// Returns the diagram for Mermaid.
+    pub fn mermaid(&self) -> String {
+        let mut text = "flowchart LR\n".to_owned();
+        for (number, it) in self.inducers.iter().enumerate() {
+            let _ = writeln!(text, "  i{number}([\"{}\"])", entities(it));
+        }
+        for (number, it) in self.effects.iter().enumerate() {
+            let lines: Vec<_> = it.lines.iter().map(|it| entities(it)).collect();
+            let _ = writeln!(text, "  n{number}[\"{}\"]", lines.join("<br>"));
+        }
+        for (number, it) in self.axes.iter().enumerate() {
+            let _ = writeln!(text, "  a{number}{{{{\"{}\"}}}}", entities(it));
+        }
+        for (from, to) in self.arrows() {
+            let _ = writeln!(text, "  {from} --> {to}");
+        }
+        text
     }
-    text
+
+    /// Returns from where to where arrows lead: to indicators, then on to axes.
+    fn arrows(&self) -> Vec<(String, String)> {
+        let mut arrows = Vec::new();
+        for (number, it) in self.effects.iter().enumerate() {
+            arrows.extend(it.inducers.iter().map(|it| (format!("i{it}"), format!("n{number}"))));
+        }
+        let to_axis =
+            |(number, it): (usize, &Effect)| (format!("n{number}"), format!("a{}", it.axis));
+        arrows.extend(self.effects.iter().enumerate().map(to_axis));
+        arrows
+    }
 }
 
 /// Returns a text with the characters that Mermaid reads as its own written as entities.
@@ -89,19 +124,10 @@ fn entities(text: &str) -> String {
 }
 
 /// Returns the lines of an indicator: its name, its unit, its constraints.
-fn lines<'m>(mission: &'m Mission, it: &'m Indicator) -> impl Iterator<Item = String> + 'm {
-    let number = mission.indicator(&it.id);
-    let own = mission.constraints.iter().filter(move |it| Some(it.indicator) == number);
+fn lines(mission: &Mission, number: usize, it: &Indicator) -> Vec<String> {
+    let own = mission.constraints.iter().filter(|it| it.indicator == number);
     let limit = |it: &Constraint| format!("{} {} {}", it.id, it.relation.sign(), it.goal);
-    [format!("{}, {}", it.id, it.unit)].into_iter().chain(own.map(limit))
-}
-
-/// Returns the names of all inducers, in alphabetical order, each once.
-fn inducers(mission: &Mission) -> Vec<String> {
-    let mut all: Vec<_> = mission.indicators.iter().flat_map(read_by).collect();
-    all.sort();
-    all.dedup();
-    all
+    [format!("{}, {}", it.id, it.unit)].into_iter().chain(own.map(limit)).collect()
 }
 
 /// Returns the names of the inducers that an indicator reads, each once.
@@ -111,8 +137,4 @@ fn read_by(it: &Indicator) -> Vec<String> {
     names.sort();
     names.dedup();
     names
-}
-
-fn of_axes(mission: &Mission) -> impl Iterator<Item = (&Axis, &Indicator)> {
-    mission.indicators.iter().filter_map(|it| Some((mission.axes.get(it.axis)?, it)))
 }

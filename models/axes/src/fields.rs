@@ -25,6 +25,11 @@ impl Faults {
         if all.len() < MAX_FAULTS { all.push(fault) } else { *omitted += 1 }
     }
 
+    /// Whether there is none.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.borrow().0.is_empty()
+    }
+
     /// Whether further ones are counted only.
     fn are_many(&self) -> bool {
         self.0.borrow().0.len() >= MAX_FAULTS
@@ -180,6 +185,11 @@ impl<'n, 'f> Fields<'n, 'f> {
             named(it.key_at, &it.key, self.faults);
         }
         entries
+    }
+
+    /// Keys that are left, with their places.
+    pub(crate) fn left(&self) -> Vec<(&'n str, usize)> {
+        self.left.iter().map(|it| (it.key.as_str(), it.key_at)).collect()
     }
 
     /// Takes whatever is left as attributes.

@@ -15,7 +15,8 @@ pub struct Raise {
     pub now: i64,
     /// The nearest number at which the constraint lets the next speed pass.
     pub needed: i64,
-    /// The candidate's speed with it, mm/s; today's where another constraint holds it too.
+    /// The candidate's speed with it, mm/s; today's where another constraint holds it too, zero
+    /// where one removes it then.
     pub speed_mm_s: i64,
 }
 
@@ -60,8 +61,13 @@ pub fn raises(
             let Some(needed) = nearest(now, sign, end, &mut holds, steps)? else { continue };
             number.set(&mut changed, activity, needed);
             let options = candidate.options.clone();
-            let with = combination(&changed, activity, options, Lifted::default(), steps)?;
-            let speed_mm_s = with.map_or(0, |it| it.speed_mm_s);
+            let with = combination(&changed, activity, options, Lifted::default(), steps);
+            let speed_mm_s = match with {
+                Ok(with) => with.map_or(0, |it| it.speed_mm_s),
+                // Numbers grow too large elsewhere: this is no change to name.
+                Err(Stop::Wrong(_)) => continue,
+                Err(Stop::Limit) => return Err(Stop::Limit),
+            };
             raises.push(Raise { name: number.name(mission), now, needed, speed_mm_s });
         }
         number.undo(&mut changed, mission, activity, now);

@@ -2,6 +2,7 @@
 //! is wrong is said at once.
 
 mod judged;
+mod keys;
 mod parts;
 mod run;
 
@@ -11,6 +12,7 @@ use crate::mission::{Ask, Attributes, DetectBy, Hardware, Mission};
 use crate::speeds::Speeds;
 use crate::tree::{Fault, Node, Value, Wrongs};
 use crate::{json, toml_text};
+use keys::Keys;
 
 /// The format of a mission with axes in TOML.
 pub const FORMAT: &str = "cotama-axes/1";
@@ -108,14 +110,16 @@ fn read(text: &str, faults: &Faults) -> Option<Case> {
 }
 
 /// A mission while it is read.
-struct Reader<'f> {
+struct Reader<'n, 'f> {
     mission: Mission,
+    /// Keys of each owner of attributes, with their places.
+    seen: Vec<(Keys, Vec<(&'n str, usize)>)>,
     /// Whether what has no effect is a fault; in cases a missing key counts as zero.
     is_strict: bool,
     faults: &'f Faults,
 }
 
-impl<'f> Reader<'f> {
+impl<'n, 'f> Reader<'n, 'f> {
     fn new(name: String, is_strict: bool, faults: &'f Faults) -> Self {
         let mission = Mission {
             name,
@@ -132,11 +136,11 @@ impl<'f> Reader<'f> {
             indicators: Vec::new(),
             constraints: Vec::new(),
         };
-        Self { mission, is_strict, faults }
+        Self { mission, seen: Vec::new(), is_strict, faults }
     }
 
     /// Reads the mission; returns the length of its path.
-    fn mission(&mut self, fields: &mut Fields<'_, 'f>) -> i64 {
+    fn mission(&mut self, fields: &mut Fields<'n, 'f>) -> i64 {
         // Where the length is not known, no place is beyond it.
         let length = fields.integer("path_length_mm", 0, LARGEST).unwrap_or(LARGEST);
         match fields.required("robot") {
@@ -145,7 +149,9 @@ impl<'f> Reader<'f> {
             None => self.mission.robot = Attributes(vec![(String::new(), 0)]),
         }
         if let Some(node) = fields.optional("laptop") {
-            self.mission.laptop = Fields::of(node, "`laptop`", self.faults).attributes();
+            let laptop = Fields::of(node, "`laptop`", self.faults);
+            self.seen.push((Keys::Laptop, laptop.left()));
+            self.mission.laptop = laptop.attributes();
         }
         if let Some(node) = fields.required("motion_power") {
             let mut power = Fields::of(node, "`motion_power`", self.faults);
@@ -165,6 +171,7 @@ impl<'f> Reader<'f> {
             let what = format!("the hardware `{}`", entry.key);
             let mut own = Fields::of(&entry.node, &what, self.faults);
             let units = own.integer("units", 1, 255).unwrap_or(1);
+            self.seen.push((Keys::Hardware, own.left()));
             let (id, attributes) = (entry.key.clone(), own.attributes());
             self.mission.hardware.push(Hardware { id, units, attributes });
         }
@@ -176,14 +183,18 @@ impl<'f> Reader<'f> {
         }
         fields.list("zone", MAX_ZONES).iter().for_each(|it| self.zone(it, length));
         self.axes(fields.list("axis", MAX_AXES));
+        if self.is_strict && self.faults.is_empty() {
+            self.misspelt();
+        }
         fields.list("constraint", MAX_CONSTRAINTS).iter().for_each(|it| self.constraint(it));
         length
     }
 
     /// Reads the robot; its step and its most stay attributes, too: a formula may read them.
-    fn robot(&mut self, node: &Node) {
+    fn robot(&mut self, node: &'n Node) {
         let mut robot = Fields::of(node, "`robot`", self.faults);
         let speeds = self.speeds(&mut robot);
+        self.seen.push((Keys::Robot, robot.left()));
         let Attributes(mut all) = robot.attributes();
         if let Some(Speeds::Step { step_mm_s, most_mm_s }) = speeds {
             all.push((STEP.into(), step_mm_s));

@@ -9,7 +9,7 @@ use std::path::Path;
 /// A fault of the file, and how the patrol is edited to have it.
 type Edit = (&'static str, &'static str, &'static str);
 
-const EDITS: [Edit; 79] = [
+const EDITS: [Edit; 81] = [
     ("an unknown format", "\"cotama-axes/1\"", "\"cotama-axes/7\""),
     ("a name with a space", "name = \"patrol-axes\"", "name = \"the patrol\""),
     ("no length of the path", "path_length_mm = 187000", ""),
@@ -149,6 +149,8 @@ const EDITS: [Edit; 79] = [
         "of = [\"safety.impact\"]",
     ),
     ("an unknown inducer of the robot", "robot.mass_g * speed", "robot.mas_g * speed"),
+    ("a misspelt key of an option", "cpu_permille = 110", "cpu_permile = 110"),
+    ("a misspelt key of hardware", "range_mm = 5000", "rangee_mm = 5000"),
     ("an unknown inducer of options", "option(frames)", "option(frame)"),
     (
         "an unknown inducer",

@@ -2,10 +2,12 @@
 //! move until Table 5 changes.
 
 use super::patrol::SPEEDS;
+use super::small::WALK;
 use super::{lifted, table};
 use cotama_axes::raise::raises;
 use cotama_axes::why::why;
 use cotama_axes::{Activity, Case, Lifted, PATROL, Steps, label, speed_alone};
+use std::collections::BTreeSet;
 
 /// The speed of an activity with M5 and another option, the constraints that bind, and what each
 /// printed core constraint allows alone, in mm/s: 3000 stands for all.
@@ -114,6 +116,69 @@ fn changes_that_raise_a_speed_are_the_nearest() {
             "goal 0 -> -4468: 340",
         ]
     );
+}
+
+/// The patrol with a number of a part of it changed.
+fn with_number(name: &str, constraint: &str, value: i64) -> String {
+    let (owner, key) = name.split_once('.').unwrap_or((constraint, name));
+    let begins = |part: &str| PATROL.find(part).map(|it| it + part.len());
+    let places = [format!("\n[{owner}]\n"), format!("\n[hardware.{owner}]\n")];
+    let places = places.into_iter().chain([format!("\nid = \"{owner}\"\n")]);
+    let from = places.filter_map(|it| begins(&it)).min().unwrap();
+    let number = format!("{key} = ");
+    let from = from + PATROL[from..].find(&number).unwrap() + number.len();
+    let digits = PATROL[from..].find(|it: char| !it.is_ascii_digit()).unwrap();
+    format!("{}{value}{}", &PATROL[..from], &PATROL[from + digits..])
+}
+
+/// Each change, written into the file, gives the speed that is said, and a number one nearer to
+/// today's does not lift the constraint.
+#[test]
+fn a_change_written_into_the_file_gives_the_speed_that_is_said() {
+    let case = Case::parse(PATROL).unwrap();
+    let mission = &case.mission;
+    let before = table(&case, Lifted::default());
+    let mut tried = BTreeSet::new();
+    for (place, activity) in before.activities.iter().enumerate().filter(|it| it.1.travels()) {
+        for it in &activity.candidates {
+            for &constraint in &it.bounded_by {
+                let name = &mission.constraints[constraint].id;
+                let raises =
+                    raises(mission, activity, it, constraint, &mut Steps::default()).unwrap();
+                for raise in raises {
+                    let kind = (place, it.speed_mm_s, name.clone(), raise.name.clone());
+                    if !tried.insert(kind) {
+                        continue;
+                    }
+                    let after = |value: i64| {
+                        let text = with_number(&raise.name, name, value);
+                        let case = Case::parse(&text).unwrap();
+                        let all = table(&case, Lifted::default()).activities;
+                        let mut all = all[place].candidates.clone().into_iter();
+                        all.find(|after| after.options == it.options).unwrap()
+                    };
+                    assert_eq!(after(raise.needed).speed_mm_s, raise.speed_mm_s, "{raise:?}");
+                    let nearer = raise.needed + (raise.now - raise.needed).signum();
+                    let held = after(nearer);
+                    assert!(held.bounded_by.contains(&constraint), "{raise:?}");
+                    assert_eq!(held.speed_mm_s, it.speed_mm_s);
+                }
+            }
+        }
+    }
+    assert_eq!(tried.len(), 74);
+}
+
+/// A change may be refused by another constraint, which then removes the candidate.
+#[test]
+fn a_change_that_another_constraint_removes_gives_no_speed() {
+    let more = "[[axis]]\nid = \"warning\"\n[[axis.indicator]]\nid = \"heard\"\nunit = \"dB\"\n\
+                combine = \"each\"\ntravel = \"option(noise)\"\n\
+                [[constraint]]\nid = \"heard\"\nindicator = \"warning.heard\"\nkind = \"core\"\n\
+                op = \">=\"\ngoal = 4\n[[constraint]]\nid = \"quiet\"\n\
+                indicator = \"noise.level\"\nkind = \"core\"\nop = \"<=\"\ngoal = 8\n";
+    let case = Case::parse(&format!("{WALK}{more}")).unwrap_or_else(|wrongs| panic!("{wrongs}"));
+    assert_eq!(changes(&case, 1, "M1", "quiet"), ["M1.noise 4 -> 2: 0", "goal 8 -> 12: 300"]);
 }
 
 #[test]

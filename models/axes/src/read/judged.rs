@@ -1,13 +1,10 @@
 //! Reading axes, indicators with their formulas, constraints, and what is asked.
 
-use super::parts::Keys;
 use super::{Case, Reader};
 use crate::course::Course;
-use crate::fields::{
-    Faults, Fields, LARGEST, distinct, index_of, near, text, there_are, wrong_type,
-};
+use crate::fields::{Faults, Fields, LARGEST, distinct, index_of, text, wrong_type};
+use crate::formula::Formula;
 use crate::formula::forms::{self, Term};
-use crate::formula::{Formula, Inducer};
 use crate::mission::{Ask, Axis, Constraint, Indicator, Kind, Mission, Relation, Sense};
 use crate::tree::{Fault, Node, Value};
 
@@ -30,7 +27,7 @@ enum State {
     Read(Option<Formula>),
 }
 
-impl Reader<'_> {
+impl Reader<'_, '_> {
     pub(super) fn axes(&mut self, nodes: &[Node]) {
         let mut written: Vec<Written<'_>> = Vec::new();
         for node in nodes {
@@ -94,31 +91,6 @@ impl Reader<'_> {
         let id = if is_own { id } else { String::new() };
         self.mission.indicators.push(Indicator { id, axis, unit, adds_up, travel, stand });
         written
-    }
-
-    /// Says which inducers of a formula are of nothing that is there.
-    fn known(&self, at: usize, formula: &Formula) {
-        for inducer in formula.inducers() {
-            let (of, owner, key) = match inducer {
-                Inducer::Robot(key) => (Keys::Robot, "the robot", key),
-                Inducer::Laptop(key) => (Keys::Laptop, "the laptop", key),
-                Inducer::Options(key) if self.is_strict => (Keys::Options, "an option", key),
-                Inducer::Hardware(key) if self.is_strict => (Keys::Hardware, "hardware", key),
-                Inducer::Detector(key) if self.is_strict => (Keys::Hardware, "hardware", key),
-                Inducer::ZoneMin(key) if self.is_strict => (Keys::Zones, "a zone", key),
-                _ => continue,
-            };
-            let mut keys = self.keys(of);
-            keys.sort_unstable();
-            keys.dedup();
-            if !keys.contains(&"") && !keys.contains(&key.as_str()) {
-                let message = format!("unknown inducer `{inducer}`: no key `{key}` of {owner}");
-                let near = near(key, keys.iter().copied());
-                let help = near.map(|it| format!("did you mean `{it}`?"));
-                let help = help.unwrap_or_else(|| there_are(keys.into_iter()));
-                self.faults.add(Fault::new(at, message).help(help));
-            }
-        }
     }
 
     pub(super) fn constraint(&mut self, node: &Node) {
@@ -209,7 +181,7 @@ impl Reader<'_> {
 
 /// Formulas of all indicators, each read once, and after those that it reads.
 struct Formulas<'r, 'f, 'n> {
-    reader: &'r Reader<'f>,
+    reader: &'r Reader<'n, 'f>,
     written: &'r [Written<'n>],
     states: Vec<[State; 2]>,
     /// Indicators whose formulas are begun, the outermost first.

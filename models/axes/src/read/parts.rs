@@ -1,8 +1,9 @@
 //! Reading options, objectives and zones.
 
 use super::Reader;
+use super::keys::Keys;
 use crate::fields::{Faults, Fields, distinct, index_of, integer, text};
-use crate::mission::{Attributes, Mission, Objective, Tio, Zone};
+use crate::mission::{Mission, Objective, Tio, Zone};
 use crate::tree::{Fault, Node};
 
 const MAX_TASKS: usize = 4;
@@ -11,8 +12,8 @@ fn hardware_of(at: usize, name: &str, mission: &Mission, faults: &Faults) -> Opt
     index_of(at, "hardware", name, mission.hardware.iter().map(|it| it.id.as_str()), faults)
 }
 
-impl Reader<'_> {
-    pub(super) fn tio(&mut self, node: &Node) {
+impl<'n> Reader<'n, '_> {
+    pub(super) fn tio(&mut self, node: &'n Node) {
         let mission = &self.mission;
         let mut own = Fields::of(node, "a `tio`", self.faults);
         let id = own.own_name("option", mission.options.iter().map(|it| it.id.as_str()));
@@ -30,6 +31,7 @@ impl Reader<'_> {
                 *own = need;
             }
         }
+        self.seen.push((Keys::Options, own.left()));
         let attributes = own.attributes();
         self.mission.options.push(Tio { id, task, needs, attributes });
     }
@@ -81,7 +83,7 @@ impl Reader<'_> {
         self.mission.objectives.push(Objective { id, x_start_mm, x_end_mm, tasks });
     }
 
-    pub(super) fn zone(&mut self, node: &Node, length: i64) {
+    pub(super) fn zone(&mut self, node: &'n Node, length: i64) {
         let (mission, faults) = (&self.mission, self.faults);
         let mut own = Fields::of(node, "a `zone`", faults);
         let id = own.own_name("zone", mission.zones.iter().map(|it| it.id.as_str()));
@@ -102,6 +104,7 @@ impl Reader<'_> {
         let name = own.optional("require_hardware");
         let name = name.and_then(|it| text(it, "require_hardware", faults));
         let require_hardware = name.and_then(|(at, it)| hardware_of(at, it, mission, faults));
+        self.seen.push((Keys::Zones, own.left()));
         let attributes = own.attributes();
         let zone =
             Zone { id, x_start_mm, x_end_mm, blind, require_tio, require_hardware, attributes };
@@ -127,26 +130,4 @@ impl Reader<'_> {
             }
         }
     }
-
-    /// All keys of attributes of options, of hardware, of detectors or of zones.
-    pub(super) fn keys(&self, of: Keys) -> Vec<&str> {
-        let all: Vec<&Attributes> = match of {
-            Keys::Options => self.mission.options.iter().map(|it| &it.attributes).collect(),
-            Keys::Hardware => self.mission.hardware.iter().map(|it| &it.attributes).collect(),
-            Keys::Zones => self.mission.zones.iter().map(|it| &it.attributes).collect(),
-            Keys::Robot => vec![&self.mission.robot],
-            Keys::Laptop => vec![&self.mission.laptop],
-        };
-        all.into_iter().flat_map(|it| &it.0).map(|it| it.0.as_str()).collect()
-    }
-}
-
-/// Owners of attributes.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Keys {
-    Options,
-    Hardware,
-    Zones,
-    Robot,
-    Laptop,
 }

@@ -13,7 +13,7 @@ const MAX_ERROR: i64 = 10_000;
 /// They are no negative part of planned ones.
 const LEAST_ERROR: i64 = -1_000;
 
-impl Reader<'_> {
+impl Reader<'_, '_> {
     /// Reads `run`; where it is missing, nothing happens.
     pub(super) fn run(&self, node: Option<&Node>, length: i64) -> Course {
         let Some(node) = node else { return Course::default() };
