@@ -1,0 +1,75 @@
+//! Rows of probabilities as they are printed: rounded, so that their sum may miss 1.
+
+use crate::wrong::Wrong;
+
+/// A row of a table.
+#[derive(Clone, Debug)]
+pub(crate) struct Row {
+    place: (usize, usize),
+    numbers: Vec<f64>,
+    /// The most digits behind the point of any of its numbers.
+    digits: i32,
+}
+
+/// A sum as near to 1 as this needs no word.
+const EXACT: f64 = 1e-12;
+
+impl Row {
+    pub(crate) const fn new(place: (usize, usize)) -> Self {
+        Self { place, numbers: Vec::new(), digits: 0 }
+    }
+
+    /// Adds a number as it is written.
+    pub(crate) fn push(&mut self, word: &str) -> Result<(), String> {
+        let number: f64 = word.parse().map_err(|_| format!("`{word}` is no probability"))?;
+        if !number.is_finite() || !(0.0..=1.5).contains(&number) {
+            return Err(format!("probability {word}"));
+        }
+        let (mantissa, exponent) = word.split_once(['e', 'E']).unwrap_or((word, "0"));
+        let behind = mantissa.split_once('.').map_or(0, |it| it.1.len().min(400) as u16);
+        let exponent = exponent.parse().unwrap_or(0_i32).clamp(-400, 400);
+        self.digits = self.digits.max(i32::from(behind) - exponent);
+        self.numbers.push(number);
+        Ok(())
+    }
+
+    /// The row with a sum of 1: as it is, or normalised with a note if it misses that by less than
+    /// half a unit of the last printed digit for each number.
+    pub(crate) fn normalised(self, notes: &mut Notes) -> Result<Vec<f64>, Wrong> {
+        let sum: f64 = self.numbers.iter().sum();
+        let off = (sum - 1.0).abs();
+        if off <= EXACT {
+            return Ok(self.numbers);
+        }
+        let unit = libm::pow(10.0, -f64::from(self.digits));
+        let allowed = 0.5 * unit * self.numbers.len() as f64 * (1.0 - 1e-6);
+        if off >= allowed || sum <= 0.0 {
+            let sum = (sum * 1e9).round() / 1e9;
+            let help = "probabilities of a row sum to 1";
+            return Err(Wrong::at(self.place, format!("sums to {sum}")).help(help));
+        }
+        notes.rows += 1;
+        notes.first.get_or_insert(self.place.0);
+        Ok(self.numbers.iter().map(|it| it / sum).collect())
+    }
+}
+
+/// Rows that were normalised.
+#[derive(Debug, Default)]
+pub(crate) struct Notes {
+    rows: usize,
+    first: Option<usize>,
+}
+
+impl Notes {
+    pub(crate) fn told(&self) -> Vec<String> {
+        let Some(line) = self.first else { return Vec::new() };
+        let rows = self.rows;
+        let row = if rows == 1 { "row misses" } else { "rows miss" };
+        vec![format!(
+            "{rows} {row} a sum of 1 by less than the rounding of its numbers, and is normalised: \
+             line {line}{}",
+            if rows == 1 { "" } else { " first" }
+        )]
+    }
+}
