@@ -97,6 +97,11 @@ impl Data {
         named(&self.variables, name)
     }
 
+    /// How many states a variable has.
+    pub(crate) fn states(&self, variable: usize) -> usize {
+        self.variables.get(variable).map_or(0, |it| it.states.len())
+    }
+
     /// Names of the variables that have one state only: no arc of theirs ever pays.
     pub fn constant(&self) -> Vec<&str> {
         let constant = self.variables.iter().filter(|it| it.states.len() == 1);

@@ -4,7 +4,7 @@ use crate::common::{cells, network};
 use cotama_risk::{Convention, NoAnswer, coherence, quantile};
 
 /// `name=value` pairs between commas or spaces.
-fn pairs<'t>(text: &'t str, between: char) -> impl Iterator<Item = (&'t str, &'t str)> {
+fn pairs(text: &str, between: char) -> impl Iterator<Item = (&str, &str)> {
     text.split(between).filter_map(|it| it.split_once('='))
 }
 

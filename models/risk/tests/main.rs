@@ -1,7 +1,10 @@
 //! Networks and data with known answers; `data/README.md` says how each was found.
 
-#![allow(clippy::unwrap_used, clippy::cast_precision_loss)]
+#![allow(clippy::pedantic, clippy::unwrap_used, clippy::disallowed_methods)]
 
+mod choices;
 mod common;
 mod formats;
 mod inference;
+mod learning;
+mod properties;
