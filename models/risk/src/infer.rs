@@ -39,26 +39,26 @@ pub struct Posterior {
 
 /// A table that a step multiplies, and how its cells are found.
 #[derive(Clone, Debug)]
-struct Operand {
+pub(crate) struct Operand {
     /// A node of the network, or behind these the result of a step.
-    source: usize,
+    pub(crate) source: usize,
     /// For each variable of the step's result the distance of its states.
-    strides: Vec<usize>,
+    pub(crate) strides: Vec<usize>,
     /// The distance of the states of the variable that is summed out.
-    inner: usize,
+    pub(crate) inner: usize,
     /// Evidence, by its number, and the distance of its states.
-    fixed: Vec<(usize, usize)>,
+    pub(crate) fixed: Vec<(usize, usize)>,
 }
 
 /// Tables multiplied, and a variable summed out.
 #[derive(Clone, Debug)]
-struct Step {
-    operands: Vec<Operand>,
+pub(crate) struct Step {
+    pub(crate) operands: Vec<Operand>,
     /// States of the variables of the result, the last fastest.
-    shape: Vec<usize>,
-    size: usize,
+    pub(crate) shape: Vec<usize>,
+    pub(crate) size: usize,
     /// States of the variable that is summed out; 1 in the last step, which sums none.
-    summed: usize,
+    pub(crate) summed: usize,
 }
 
 /// A query prepared: it is answered for any states of its evidence.
@@ -79,10 +79,10 @@ struct Step {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Plan {
-    steps: Vec<Step>,
+    pub(crate) steps: Vec<Step>,
     /// States of the variables that are evidence.
-    evidence: Vec<usize>,
-    nodes: usize,
+    pub(crate) evidence: Vec<usize>,
+    pub(crate) nodes: usize,
 }
 
 /// Memory that answers use again.

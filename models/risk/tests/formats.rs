@@ -76,6 +76,52 @@ fn a_flat_table_has_the_state_of_its_variable_slowest() {
 }
 
 #[test]
+fn the_same_network_in_xml_is_the_same() {
+    for name in ["cancer", "dog_problem"] {
+        let file = text(&format!("{name}.xmlbif"));
+        let (found, notes) = Network::from_xmlbif(&file).unwrap();
+        assert_eq!((&found, notes.len()), (&network(name), 0), "{name}");
+        let wrong = Network::from_xmlbif(&file.replace("</NETWORK>\n</BIF>", "")).unwrap_err();
+        assert!(wrong.message.ends_with("the file ends inside <NETWORK>"), "{wrong}");
+    }
+    let wrong = |from: &str, to: &str| {
+        Network::from_xmlbif(&text("cancer.xmlbif").replacen(from, to, 1)).unwrap_err().to_string()
+    };
+    assert_eq!(
+        wrong("<FOR>Smoker</FOR>", "<FOR>Smokre</FOR>"),
+        "35:8: no variable Smokre\n  help: did you mean `Smoker`?"
+    );
+    assert_eq!(wrong("0.9 0.1", "-0.9 1.9"), "32:10: probability -0.9 of Pollution");
+    assert_eq!(wrong("0.9 0.1", "0.9"), "32:10: the table of Pollution has 1 numbers, not 2");
+    assert_eq!(wrong("low", "&high;"), "7:12: an entity that is none of XML's five");
+}
+
+/// The networks of the repository of bnlearn and like ones: each is read, written, and read as it
+/// was.
+#[test]
+fn public_networks_are_read_and_written() {
+    let Some(folder) = cotama_golden::public_folder("COTAMA_RISK_DIR", "public networks") else {
+        return;
+    };
+    let mut read = 0;
+    for file in std::fs::read_dir(folder).unwrap() {
+        let path = file.unwrap().path();
+        if path.extension().is_some_and(|it| it == "bif") {
+            let text = std::fs::read_to_string(&path).unwrap();
+            let (net, _) = Network::from_bif(&text).unwrap_or_else(|it| panic!("{path:?}: {it}"));
+            let (again, notes) = Network::from_bif(&net.to_bif()).unwrap();
+            for (one, two) in net.nodes().iter().zip(again.nodes()) {
+                let both = one.table.iter().zip(&two.table);
+                assert!(both.into_iter().all(|it| (it.0 - it.1).abs() < 1e-12), "{path:?}");
+            }
+            assert!(notes.is_empty(), "{path:?}: {notes:?}");
+            read += 1;
+        }
+    }
+    assert!(read > 0, "no file ends in .bif");
+}
+
+#[test]
 fn a_written_network_is_read_as_it_was() {
     for name in ["cancer", "asia", "two_ways", "sixteen", "dog_problem"] {
         let network = network(name);

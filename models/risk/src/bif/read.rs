@@ -26,29 +26,31 @@ impl Network {
 
 /// Blocks as they stand in the file.
 #[derive(Default)]
-struct File<'t> {
-    name: &'t str,
-    variables: Vec<(usize, Variable)>,
-    numbers: BTreeMap<&'t str, usize>,
-    tables: BTreeMap<usize, Block<'t>>,
+pub(super) struct File<'t> {
+    pub(super) name: &'t str,
+    pub(super) variables: Vec<(usize, Variable)>,
+    pub(super) numbers: BTreeMap<&'t str, usize>,
+    pub(super) tables: BTreeMap<usize, Block<'t>>,
 }
 
 /// A block of probabilities.
-struct Block<'t> {
-    at: usize,
-    parents: Vec<(usize, &'t str)>,
-    entries: Vec<Entry<'t>>,
+pub(super) struct Block<'t> {
+    pub(super) at: usize,
+    pub(super) parents: Vec<(usize, &'t str)>,
+    pub(super) entries: Vec<Entry<'t>>,
 }
 
-struct Entry<'t> {
-    at: usize,
-    of: Of<'t>,
-    numbers: Vec<(usize, &'t str)>,
+pub(super) struct Entry<'t> {
+    pub(super) at: usize,
+    pub(super) of: Of<'t>,
+    pub(super) numbers: Vec<(usize, &'t str)>,
 }
 
-enum Of<'t> {
-    /// All rows at once.
+pub(super) enum Of<'t> {
+    /// All rows at once, the variable's own state slowest.
     Table,
+    /// All rows at once, one after the other.
+    Rows,
     /// Rows that are not listed.
     Default,
     /// The row of these states of the parents.
@@ -197,13 +199,13 @@ impl<'t> Reader<'t> {
 }
 
 impl File<'_> {
-    fn number(&self, lexer: &Lexer<'_>, at: usize, name: &str) -> Result<usize, Wrong> {
+    pub(super) fn number(&self, lexer: &Lexer<'_>, at: usize, name: &str) -> Result<usize, Wrong> {
         self.numbers.get(name).copied().ok_or_else(|| {
             lexer.wrong(at, format!("no variable {name}")).near(name, self.numbers.keys().copied())
         })
     }
 
-    fn network(&self, lexer: &Lexer<'_>) -> Result<(Network, Vec<String>), Wrong> {
+    pub(super) fn network(&self, lexer: &Lexer<'_>) -> Result<(Network, Vec<String>), Wrong> {
         if self.variables.is_empty() {
             let help = "a file in BIF has blocks `network`, `variable`, `probability`";
             return Err(Wrong::whole("no variables").help(help));
@@ -272,7 +274,7 @@ impl Tables<'_, '_> {
         let mut default = None;
         for entry in &self.block.entries {
             match &entry.of {
-                Of::Table => self.flat(entry, &mut rows)?,
+                Of::Table | Of::Rows => self.flat(entry, &mut rows)?,
                 Of::Default if default.is_some() => {
                     return Err(lexer.wrong(entry.at, format!("{name} has two defaults")));
                 }
@@ -328,7 +330,7 @@ impl Tables<'_, '_> {
         row.push(word).map_err(|why| self.lexer.wrong(at, format!("{why} of {name}")))
     }
 
-    /// Reads all rows: the variable's own state runs slowest, the last parent fastest.
+    /// Reads all rows.
     fn flat(&self, entry: &Entry<'_>, rows: &mut [Option<Row>]) -> Result<(), Wrong> {
         let variable = &self.nodes[self.number].variable;
         let (has, wants) = (entry.numbers.len(), rows.len() * variable.states.len());
@@ -336,11 +338,14 @@ impl Tables<'_, '_> {
             let message = format!("the table of {} has {has} numbers, not {wants}", variable.name);
             return Err(self.lexer.wrong(entry.at, message));
         }
-        let count = rows.len();
+        let (count, states) = (rows.len(), variable.states.len());
+        let is_flat = matches!(entry.of, Of::Table);
+        let steps = |at: usize| if is_flat { (at, count) } else { (at * states, 1) };
         for (at, row) in rows.iter_mut().enumerate() {
+            let (first, step) = steps(at);
             let place = self.lexer.wrong(entry.at, "");
             let mut own = Row::new((place.line, place.column));
-            for (place, word) in entry.numbers.iter().skip(at).step_by(count) {
+            for (place, word) in entry.numbers.iter().skip(first).step_by(step).take(states) {
                 self.push(&mut own, *place, word)?;
             }
             if row.replace(own).is_some() {

@@ -19,6 +19,13 @@ pub struct Chain {
     pub refused: u64,
 }
 
+impl Chain {
+    /// Accepted over refused steps, as the thesis counts them; none where none was refused.
+    pub fn acceptance(&self) -> Option<f64> {
+        (self.refused > 0).then(|| self.accepted as f64 / self.refused as f64)
+    }
+}
+
 /// Walks over graphs (Madigan and York, Int. Stat. Rev. 63, 1995; the thesis, section 4.4): a
 /// neighbour, one arc away, is proposed with equal chance, and accepted with the chance
 /// `min(1, exp(score' - score) nb / nb')`, in which `nb` counts the neighbours. The score stands for
