@@ -21,9 +21,9 @@
 //! d: one variable after the other is exchanged, and each exchange moves at most its d.
 //!
 //! A state with the exact probability n of N, computed as m of S, has |n - m| ≤ C + D and |N - S| ≤
-//! r C + D, so that |n/N - m/S| ≤ |n - m|/S + (n/N) |N - S|/S ≤ ((r + 1) C + 2 D)/S. The answer adds
-//! one unit of 2⁻³⁰ for the last division. Where that bound passes 1, nothing is known, and the
-//! answer is an error.
+//! r C + D, so that |n/N - m/S| ≤ |n - m|/S + (n/N) |N - S|/S ≤ ((r + 1) C + 2 D)/S. The answer
+//! adds a unit of 2⁻³⁰ for the last division, and one to round the bound up. Where the bound passes
+//! 1, nothing is known, and the answer is an error.
 #![no_std]
 
 /// One, in the units of tables and answers.

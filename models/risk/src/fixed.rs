@@ -188,14 +188,15 @@ impl Fixed {
             let Step { shape, summed, to, .. } = step;
             let _ = writeln!(
                 text,
-                "            ],\n            shape: &{shape:?},\n            summed: {summed},\n            \
-                 to: {to},\n        }},"
+                "            ],\n            shape: &{shape:?},\n            summed: {summed},\n\
+                 \x20           to: {to},\n        }},"
             );
         }
         let Self { evidence, scratch, rounded, .. } = self;
         let _ = writeln!(
             text,
-            "    ],\n    evidence: &{evidence:?},\n    scratch: {scratch},\n    rounded: {rounded},\n}};"
+            "    ],\n    evidence: &{evidence:?},\n    scratch: {scratch},\n\
+             \x20   rounded: {rounded},\n}};"
         );
         text
     }
@@ -213,8 +214,8 @@ impl Cells {
     }
 }
 
-/// A row in units of 2⁻³⁰ with a sum of exactly 2³⁰: the largest remainders are rounded up, of equal
-/// ones the first.
+/// A row in units of 2⁻³⁰ with a sum of exactly 2³⁰: the largest remainders are rounded up, of
+/// equal ones the first.
 fn rounded(row: &[f64]) -> Vec<u32> {
     let sum: f64 = row.iter().sum();
     let scaled: Vec<f64> = row.iter().map(|it| it / sum * f64::from(ONE)).collect();

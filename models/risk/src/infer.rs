@@ -97,7 +97,7 @@ pub struct Scratch {
 const LOW: f64 = 1e-150;
 const RAISE: f64 = 1e150;
 
-/// A table while the order is looked for: its source, and the variables it is about, rising.
+/// A table while the order is looked for: its source, and the variables it is about.
 struct Open {
     source: usize,
     scope: Vec<usize>,
@@ -240,6 +240,9 @@ struct Maker<'n> {
     /// Variables of the result of each step.
     scopes: Vec<Vec<usize>>,
     steps: Vec<Step>,
+    /// Variables that were counted, by the number of the count.
+    marks: Vec<usize>,
+    mark: usize,
 }
 
 impl<'n> Maker<'n> {
@@ -254,42 +257,51 @@ impl<'n> Maker<'n> {
             }
         }
         let scope = |at: usize| {
-            let mut scope = net.nodes()[at].parents.clone();
-            scope.push(at);
-            scope.retain(|it| given[*it].is_none());
-            scope.sort_unstable();
-            Open { source: at, scope }
+            let own = net.nodes()[at].parents.iter().chain([&at]).copied();
+            Open { source: at, scope: own.filter(|it| given[*it].is_none()).collect() }
         };
         let needed = (0..is_needed.len()).filter(|it| is_needed[*it]);
-        let open = needed.map(scope).collect();
-        Self { net, given, open, scopes: Vec::new(), steps: Vec::new() }
+        let open: Vec<Open> = needed.map(scope).collect();
+        let (steps, marks) = (Vec::with_capacity(open.len()), vec![0; net.nodes().len()]);
+        Self { net, given, scopes: Vec::with_capacity(open.len()), open, steps, marks, mark: 0 }
     }
 
     /// Variables to sum out, rising.
     fn hidden(&self, query: &[usize]) -> Vec<usize> {
-        let mut all: Vec<usize> = self.open.iter().flat_map(|it| it.scope.clone()).collect();
-        all.sort_unstable();
-        all.dedup();
-        all.retain(|it| !query.contains(it));
-        all
+        // Each variable has a table of its own.
+        let own = self.open.iter().map(|it| it.source);
+        own.filter(|it| self.given[*it].is_none() && !query.contains(it)).collect()
     }
 
     /// The place in `left` of the variable whose sum leaves the smallest table, and its variables.
-    fn cheapest(&self, left: &[usize]) -> Option<(usize, Vec<usize>)> {
-        let mut best: Option<(f64, usize, Vec<usize>)> = None;
+    fn cheapest(&mut self, left: &[usize]) -> Option<(usize, Vec<usize>)> {
+        let mut best: Option<(f64, usize)> = None;
         for (at, variable) in left.iter().enumerate() {
-            let mut scope = Vec::new();
-            for it in self.open.iter().filter(|it| it.scope.contains(variable)) {
-                scope.extend(it.scope.iter().filter(|it| *it != variable));
+            self.mark += 1;
+            let mut size = 1.0;
+            for open in self.open.iter().filter(|it| it.scope.contains(variable)) {
+                for it in open.scope.iter().filter(|it| *it != variable) {
+                    if self.marks[*it] != self.mark {
+                        self.marks[*it] = self.mark;
+                        size *= self.net.states(*it) as f64;
+                    }
+                }
             }
-            scope.sort_unstable();
-            scope.dedup();
-            let size = scope.iter().map(|it| self.net.states(*it) as f64).product();
-            if best.as_ref().is_none_or(|it| size < it.0) {
-                best = Some((size, at, scope));
+            if best.is_none_or(|it| size < it.0) {
+                best = Some((size, at));
             }
         }
-        best.map(|(_, at, scope)| (at, scope))
+        let (_, at) = best?;
+        let mut scope = Vec::with_capacity(8);
+        for open in self.open.iter().filter(|it| it.scope.contains(&left[at])) {
+            for it in open.scope.iter().filter(|it| **it != left[at]) {
+                if !scope.contains(it) {
+                    scope.push(*it);
+                }
+            }
+        }
+        scope.sort_unstable();
+        Some((at, scope))
     }
 
     /// Adds a step that leaves these variables and sums one out; without one it multiplies all
@@ -300,11 +312,10 @@ impl<'n> Maker<'n> {
         let size = shape.iter().try_fold(1_usize, |all, it| all.checked_mul(*it));
         let size = size.filter(|it| it.saturating_mul(states) <= MAX_CELLS);
         let size = size.ok_or(NoAnswer::TooLarge)?;
-        let (used, kept): (Vec<_>, Vec<_>) = std::mem::take(&mut self.open)
-            .into_iter()
-            .partition(|it| summed.is_none_or(|variable| it.scope.contains(&variable)));
-        self.open = kept;
-        let operands = used.iter().map(|it| self.operand(it.source, scope, summed)).collect();
+        let is_used = |it: &Open| summed.is_none_or(|variable| it.scope.contains(&variable));
+        let used = self.open.iter().filter(|it| is_used(it));
+        let operands = used.map(|it| self.operand(it.source, scope, summed)).collect();
+        self.open.retain(|it| !is_used(it));
         self.steps.push(Step { operands, shape, size, summed: states });
         let source = self.net.nodes().len() + self.scopes.len();
         self.scopes.push(scope.to_vec());
@@ -313,15 +324,16 @@ impl<'n> Maker<'n> {
     }
 
     fn operand(&self, source: usize, scope: &[usize], summed: Option<usize>) -> Operand {
-        let (nodes, mut own) = (self.net.nodes(), Vec::new());
-        match source.checked_sub(nodes.len()) {
-            None => own.extend(nodes[source].parents.iter().chain([&source]).copied()),
-            Some(result) => own.extend(&self.scopes[result]),
-        }
+        let nodes = self.net.nodes();
+        // The variables of its cells, the last fastest: the node behind its parents.
+        let (own, last) = match source.checked_sub(nodes.len()) {
+            None => (nodes[source].parents.as_slice(), Some(&source)),
+            Some(result) => (self.scopes[result].as_slice(), None),
+        };
         let mut operand =
             Operand { source, strides: vec![0; scope.len()], inner: 0, fixed: Vec::new() };
         let mut far = 1;
-        for variable in own.iter().rev() {
+        for variable in own.iter().chain(last).rev() {
             if Some(*variable) == summed {
                 operand.inner = far;
             } else if let Some(at) = self.given[*variable].filter(|_| source < nodes.len()) {

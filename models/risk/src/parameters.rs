@@ -94,8 +94,8 @@ impl Counts {
 
     /// The network with the expected probabilities under a Dirichlet prior of the equivalent sample
     /// size `ess`, the same for all networks of a class: `(N_ijk + ess / (q r)) / (N_ij + ess / q)`
-    /// (the prior of `BDeu`; the thesis has size 1). With 0 they are shares, and equal where a row never
-    /// occurred.
+    /// (the prior of `BDeu`; the thesis has size 1). With 0 they are shares, and equal where a row
+    /// never occurred.
     ///
     /// # Errors
     /// When the size is negative or not finite.

@@ -28,8 +28,8 @@ impl Chain {
 
 /// Walks over graphs (Madigan and York, Int. Stat. Rev. 63, 1995; the thesis, section 4.4): a
 /// neighbour, one arc away, is proposed with equal chance, and accepted with the chance
-/// `min(1, exp(score' - score) nb / nb')`, in which `nb` counts the neighbours. The score stands for
-/// the logarithm of the marginal likelihood. Proves nothing about its best graph.
+/// `min(1, exp(score' - score) nb / nb')`, in which `nb` counts the neighbours. The score stands
+/// for the logarithm of the marginal likelihood. Proves nothing about its best graph.
 pub fn chain(
     families: &mut Families<'_>,
     constraints: &Constraints,

@@ -138,6 +138,11 @@ pub fn exact(
     if state_bits(data) > 63 {
         return Err(TooMuch::States);
     }
+    if count < 2 {
+        let dag = constraints.least();
+        let score = families.of(&dag);
+        return Ok(Exact { dag, score, bytes });
+    }
     let prices = Prices::new(families, constraints);
     let subsets = Subsets::count(data, score, prices.wanted(data, constraints));
     let search = Search::new(subsets, &prices, constraints);

@@ -86,6 +86,8 @@ struct Walk {
     /// Entries of a cell by their state, while it is cut, and how many these are.
     cut: Vec<Vec<Entry>>,
     lengths: Vec<usize>,
+    /// Rows of each state, in the last cell.
+    sums: Vec<u32>,
     /// For each byte of a rest and each value the levels whose states have one of its bits.
     differ: Vec<[u32; 256]>,
 }
@@ -103,10 +105,11 @@ struct Place {
 }
 
 impl Subsets {
-    /// Counts all subsets that are wanted. At most 30 variables with 63 bits of states.
+    /// Counts all subsets that are wanted, of at least 2 variables and at most 30, which have 63
+    /// bits of states.
     pub(super) fn count(data: &Data, score: Score, wanted: Wanted) -> Self {
         let count = data.variables().len();
-        debug_assert!(count <= 30 && state_bits(data) <= 63, "too many variables");
+        debug_assert!((2..=30).contains(&count) && state_bits(data) <= 63, "too many variables");
         // Variables that cut cells small come first.
         let mut variables: Vec<usize> = (0..count).collect();
         let mut order: Vec<(f64, usize)> =
@@ -142,6 +145,7 @@ impl Subsets {
             cells: Vec::new(),
             cut: vec![vec![Entry { rest: APART, weight: 0 }; rests.len() + 1]; most],
             lengths: vec![1; most],
+            sums: vec![0; most],
             differ: differ(&shifts),
             rows: data.rows(),
             shifts,
@@ -180,6 +184,9 @@ impl Walk {
     /// the last ones.
     fn visit(&mut self, at: Place, entries: usize, cells: usize) {
         let Place { level, mask, table, configurations, taken, most } = at;
+        if level + 2 == self.states.len() {
+            return self.leaves(at, entries, cells);
+        }
         let bit = self.bit(level);
         let states = self.states[level];
         // A subset is wanted with one of its variables as the child, and without a child.
@@ -195,14 +202,7 @@ impl Walk {
         let without = Place { level: level + 1, most: larger(most, own / states as f64), ..at };
         let is_wanted =
             taken < self.wanted.variables && with.configurations <= larger(with.most, rest);
-        // Light cells known so far: all of the subset with this variable are in the one without.
-        let (without_half, with_half) = self.light[mask..mask + 2 * bit].split_at_mut(bit);
-        for (to, from) in without_half.iter_mut().zip(with_half) {
-            to.iter_mut().zip(from).for_each(|(to, from)| *to += *from);
-        }
-        if level + 1 == self.states.len() {
-            return self.leaves(with, table, entries, cells, is_wanted);
-        }
+        self.push(mask, bit);
         let (end_entries, end_cells) = (self.entries.len(), self.cells.len());
         if is_wanted {
             self.split(with, entries, cells, end_cells);
@@ -217,36 +217,51 @@ impl Walk {
         }
     }
 
-    /// The last level: a cell is one of the subset without it, and each entry one with it.
-    fn leaves(
-        &mut self,
-        with: Place,
-        table: usize,
-        mut start: usize,
-        cells: usize,
-        is_wanted: bool,
-    ) {
-        self.make(table);
-        self.make(with.table);
-        let (entries, tables) = (&self.entries, &self.tables);
-        let (Some(Some(outer)), Some(Some(inner))) = (tables.get(table), tables.get(with.table))
-        else {
-            return;
-        };
-        let (mut whole, mut parts) = (0.0, 0.0);
+    /// Hands light cells down a level: all of the subset with a variable are in the one without.
+    fn push(&mut self, mask: usize, bit: usize) {
+        let (without, with) = self.light[mask..mask + 2 * bit].split_at_mut(bit);
+        for (to, from) in without.iter_mut().zip(with) {
+            to.iter_mut().zip(from).for_each(|(to, from)| *to += *from);
+        }
+    }
+
+    /// The last two levels at once: a cell is one of the subset without both; its entries, those of
+    /// the last variable together, are those of the subset with both.
+    fn leaves(&mut self, at: Place, mut start: usize, cells: usize) {
+        let Place { level, mask, table, .. } = at;
+        self.push(mask, 2);
+        self.push(mask, 1);
+        self.push(mask + 2, 1);
+        let (one, two) = (self.strides[level], self.strides[level + 1]);
+        let tables = [table, table + two, table + one, table + one + two];
+        tables.iter().for_each(|it| self.make(*it));
+        let of = |at: usize| self.tables.get(at).and_then(Option::as_deref).unwrap_or(&[]);
+        let [none, last, first, both] = tables.map(of);
+        let (shift, split) = (self.shifts[level], self.shifts[level + 1]);
+        let field = (1_u64 << (split - shift)) - 1;
+        let sums = &mut self.sums[..self.states[level]];
+        let mut values = [0.0; 4];
         for end in &self.cells[cells..] {
-            let mut total = 0;
-            for entry in &entries[start..*end] {
+            let (mut total, mut run, mut state) = (0, 0, u64::MAX);
+            for entry in &self.entries[start..*end] {
+                if entry.rest >> split != state {
+                    values[1] += last[run as usize];
+                    (run, state) = (0, entry.rest >> split);
+                }
+                run += entry.weight;
                 total += entry.weight;
-                parts += inner[entry.weight as usize];
+                sums[(entry.rest >> shift & field) as usize] += entry.weight;
+                values[3] += both[entry.weight as usize];
             }
-            whole += outer[total as usize];
+            values[1] += last[run as usize];
+            values[0] += none[total as usize];
+            for sum in &mut *sums {
+                values[2] += first[*sum as usize];
+                *sum = 0;
+            }
             start = *end;
         }
-        self.values[with.mask ^ 1] = whole;
-        if is_wanted {
-            self.values[with.mask] = parts;
-        }
+        self.values[mask..mask + 4].copy_from_slice(&values);
     }
 
     fn make(&mut self, at: usize) {
@@ -337,6 +352,10 @@ impl Walk {
     /// Counts a cell of one or two light entries for all subsets below a place; returns whether the
     /// cell was such a one.
     fn is_resolved(&mut self, at: Place, cell: &[Entry]) -> bool {
+        // Nothing is won by it at the last levels, which look at each cell once.
+        if at.level + 2 >= self.states.len() {
+            return matches!(cell, [Entry { weight: 1, .. }]);
+        }
         let everything = self.bit(at.level) * 2 - 1;
         let weight = |it: &Entry| it.weight as usize;
         match cell {
