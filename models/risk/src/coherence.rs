@@ -40,12 +40,18 @@ impl Coherence {
     }
 }
 
+/// The most variables of a network whose pairs are all looked at.
+const MOST: usize = 256;
+
 /// The coherence of all pairs of variables, from the marginals of the network.
 ///
 /// # Errors
-/// [`NoAnswer::TooLarge`] where a pair is too far apart in too wide a network.
+/// [`NoAnswer::TooLarge`] of a network with more than 256 variables, or too wide a one.
 pub fn coherence(net: &Network) -> Result<Vec<Coherence>, NoAnswer> {
     let (mut all, mut scratch, mut joint) = (Vec::new(), Scratch::default(), Vec::new());
+    if net.nodes().len() > MOST {
+        return Err(NoAnswer::TooLarge);
+    }
     for x in 0..net.nodes().len() {
         for y in x + 1..net.nodes().len() {
             Plan::new(net, &[x, y], &[])?.answer_in(net, &[], &mut scratch, &mut joint)?;

@@ -4,6 +4,8 @@ use crate::wrong::Wrong;
 
 /// The most variables of a table or a network.
 pub const MAX_VARIABLES: usize = 2_048;
+/// The most rows of a table.
+pub const MAX_ROWS: usize = 1 << 22;
 /// The most states of a variable.
 pub const MAX_STATES: usize = 1_024;
 
@@ -52,6 +54,9 @@ impl Data {
         }
         if variables.len() > MAX_VARIABLES {
             return Err(Wrong::whole(format!("more than {MAX_VARIABLES} variables")));
+        }
+        if rows > MAX_ROWS {
+            return Err(Wrong::whole(format!("more than {MAX_ROWS} rows")).help("take a part"));
         }
         if variables.len() != columns.len() || columns.iter().any(|it| it.len() != rows) {
             return Err(Wrong::whole("the columns do not have the same length"));

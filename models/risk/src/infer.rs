@@ -9,7 +9,7 @@ use std::fmt;
 pub enum NoAnswer {
     /// The evidence has probability 0 in this network.
     Impossible,
-    /// A table on the way would have more than [`MAX_CELLS`] cells.
+    /// A table on the way would have more than [`MAX_CELLS`] cells, or there are too many pairs.
     TooLarge,
     /// A variable stands twice in the query or in its evidence, or is not there.
     Malformed,
@@ -19,7 +19,10 @@ impl fmt::Display for NoAnswer {
     fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Impossible => write!(to, "the evidence has probability 0 in this network"),
-            Self::TooLarge => write!(to, "a table on the way passes {MAX_CELLS} cells"),
+            Self::TooLarge => write!(
+                to,
+                "the network is too large: a table passes {MAX_CELLS} cells, or there are too many pairs"
+            ),
             Self::Malformed => write!(to, "a variable stands twice, or is not in the network"),
         }
     }

@@ -49,7 +49,7 @@ pub use choose::{
 pub use coherence::{Coherence, coherence};
 pub use csv::Cells;
 pub use dag::{Dag, MAX_LEARNED, dags};
-pub use data::{Data, MAX_STATES, MAX_VARIABLES, Variable};
+pub use data::{Data, MAX_ROWS, MAX_STATES, MAX_VARIABLES, Variable};
 pub use discretise::{Cuts, MAX_BINS, Rule, discretise};
 pub use embedded::{EMBEDDED, TWO_WAYS};
 pub use fixed::Fixed;

@@ -7,4 +7,5 @@ mod common;
 mod formats;
 mod inference;
 mod learning;
+mod mutants;
 mod properties;

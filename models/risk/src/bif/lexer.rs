@@ -79,8 +79,9 @@ impl<'t> Lexer<'t> {
         }
         let ends = |it: char| it.is_whitespace() || ENDS.contains(&it);
         let end = rest.find(ends).unwrap_or(rest.len());
-        let comment = ["//", "/*"].iter().filter_map(|it| rest[1..end].find(it)).min();
-        let word = &rest[..comment.map_or(end, |it| it + 1)];
+        let first = first.len_utf8();
+        let comment = ["//", "/*"].iter().filter_map(|it| rest[first..end].find(it)).min();
+        let word = &rest[..comment.map_or(end, |it| it + first)];
         self.at += word.len();
         Ok(Token { at, is: Is::Word(word) })
     }

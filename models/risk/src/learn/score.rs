@@ -20,6 +20,8 @@ pub enum Score {
 
 /// Codes of more configurations than this are made dense before they are counted.
 const DENSE: usize = 1 << 16;
+/// Tables with more cells than this hold those alone that occur.
+const MOST_DENSE: usize = 1 << 20;
 
 /// Scores of families of one data set, each computed once.
 #[derive(Clone, Debug)]
@@ -96,16 +98,19 @@ impl<'d> Families<'d> {
     }
 }
 
-/// Counts of the states of a variable, for each configuration of its parents that occurs.
+/// Counts of the states of a variable, for each configuration of its parents.
 struct Table {
-    states: usize,
     cells: Vec<u32>,
+    /// Ends of the counts of each configuration.
+    ends: Vec<usize>,
 }
 
 impl Table {
+    /// The configurations that occur, and their sums; states that do not occur may be left out.
     fn rows(&self) -> impl Iterator<Item = (&[u32], u32)> {
-        let sums = self.cells.chunks(self.states).map(|it| (it, it.iter().sum::<u32>()));
-        sums.filter(|it| it.1 > 0)
+        let starts = std::iter::once(&0).chain(&self.ends);
+        let rows = starts.zip(&self.ends).map(|(start, end)| &self.cells[*start..*end]);
+        rows.map(|it| (it, it.iter().sum::<u32>())).filter(|it| it.1 > 0)
     }
 
     fn likelihood(&self) -> f64 {
@@ -119,11 +124,20 @@ impl Table {
 fn counts(data: &Data, child: usize, parents: u64) -> Table {
     let states = data.states(child);
     let (codes, configurations) = codes(data, parents);
-    let mut cells = vec![0_u32; configurations * states];
-    for (code, state) in codes.iter().zip(data.column(child)) {
-        cells[*code as usize * states + usize::from(*state)] += 1;
+    let rows = codes.iter().zip(data.column(child));
+    if configurations * states <= MOST_DENSE {
+        let mut cells = vec![0_u32; configurations * states];
+        rows.for_each(|it| cells[*it.0 as usize * states + usize::from(*it.1)] += 1);
+        return Table { cells, ends: (1..=configurations).map(|it| it * states).collect() };
     }
-    Table { states, cells }
+    let mut pairs: Vec<(u32, u16)> = rows.map(|it| (*it.0, *it.1)).collect();
+    pairs.sort_unstable();
+    let (mut cells, mut ends) = (Vec::new(), Vec::new());
+    for same in pairs.chunk_by(|a, b| a.0 == b.0) {
+        cells.extend(same.chunk_by(|a, b| a == b).map(|it| it.len() as u32));
+        ends.push(cells.len());
+    }
+    Table { cells, ends }
 }
 
 /// `n ln n`, 0 for 0.
