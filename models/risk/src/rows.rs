@@ -9,14 +9,22 @@ pub(crate) struct Row {
     numbers: Vec<f64>,
     /// The most digits behind the point of any of its numbers.
     digits: i32,
+    /// Half a unit of the last digit of each number, together.
+    rounding: f64,
 }
+
+/// The most by which units of numbers of their own may add up.
+const OWN: f64 = 1e-5;
+
+/// The rounding of a number of single precision, as pyAgrum writes them with all digits.
+const SINGLE: f64 = 1.0 / (1_u32 << 24) as f64;
 
 /// A sum as near to 1 as this needs no word.
 const EXACT: f64 = 1e-12;
 
 impl Row {
     pub(crate) const fn new(place: (usize, usize)) -> Self {
-        Self { place, numbers: Vec::new(), digits: 0 }
+        Self { place, numbers: Vec::new(), digits: 0, rounding: 0.0 }
     }
 
     /// Adds a number as it is written.
@@ -28,13 +36,17 @@ impl Row {
         let (mantissa, exponent) = word.split_once(['e', 'E']).unwrap_or((word, "0"));
         let behind = mantissa.split_once('.').map_or(0, |it| it.1.len().min(400) as u16);
         let exponent = exponent.parse().unwrap_or(0_i32).clamp(-400, 400);
-        self.digits = self.digits.max(i32::from(behind) - exponent);
+        let digits = i32::from(behind) - exponent;
+        self.digits = self.digits.max(digits);
+        self.rounding += 0.5 * libm::pow(10.0, -f64::from(digits));
         self.numbers.push(number);
         Ok(())
     }
 
     /// The row with a sum of 1: as it is, or normalised with a note if it misses that by less than
-    /// half a unit of the last printed digit for each number.
+    /// half a unit of the last printed digit for each number. Numbers that are printed with as many
+    /// digits each, wherever their point is, have each a unit of their own, as far as that is small;
+    /// of numbers of single precision their bits count.
     pub(crate) fn normalised(self, notes: &mut Notes) -> Result<Vec<f64>, Wrong> {
         let sum: f64 = self.numbers.iter().sum();
         let off = (sum - 1.0).abs();
@@ -42,7 +54,12 @@ impl Row {
             return Ok(self.numbers);
         }
         let unit = libm::pow(10.0, -f64::from(self.digits));
-        let allowed = 0.5 * unit * self.numbers.len() as f64 * (1.0 - 1e-6);
+        let allowed = 0.5 * unit * self.numbers.len() as f64;
+        let own = if self.rounding < OWN { self.rounding } else { OWN };
+        let single = SINGLE * self.numbers.len() as f64;
+        let allowed = [own, single].iter().fold(allowed, |most, it| most.max(*it));
+        // Just as much is a slip of a person in a row of two digits, and rounded twice in one of six.
+        let allowed = allowed * if allowed < OWN { 1.0 + 1e-6 } else { 1.0 - 1e-6 };
         if off >= allowed || sum <= 0.0 {
             let sum = (sum * 1e9).round() / 1e9;
             let help = "probabilities of a row sum to 1";

@@ -158,6 +158,13 @@ fn rows_that_miss_1_by_their_rounding_are_normalised_and_named() {
     );
     assert_eq!(Network::from_bif(&file("0.3333, 0.3333, 0.33")).unwrap_err().line, 3);
     assert_eq!(Network::from_bif(&file("0.5, 0.5, 1e-7")).unwrap().1.len(), 1);
+    // Six digits each, wherever the point is; and two digits, which miss too much.
+    assert_eq!(Network::from_bif(&file("0.0205584, 0.979441, 5.53e-7")).unwrap().1.len(), 1);
+    assert!(Network::from_bif(&file("0.5, 0.49, 0.001")).is_err());
+    assert_eq!(Network::from_bif(&file("0.452774, 0.547225, 0")).unwrap().1.len(), 1);
+    // Single precision, written with the digits of double precision, as pyAgrum does.
+    let single = file("0.9723618030548096, 0.027638191357254982, 0");
+    assert_eq!(Network::from_bif(&single).unwrap().1.len(), 1);
 }
 
 #[test]
