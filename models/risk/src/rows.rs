@@ -1,11 +1,10 @@
 //! Rows of probabilities as they are printed: rounded, so that their sum may miss 1.
 
-use crate::wrong::Wrong;
-
 /// A row of a table.
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
-    place: (usize, usize),
+    /// Where it begins, in bytes.
+    at: usize,
     numbers: Vec<f64>,
     /// The most digits behind the point of any of its numbers.
     digits: i32,
@@ -23,8 +22,8 @@ const SINGLE: f64 = 1.0 / (1_u32 << 24) as f64;
 const EXACT: f64 = 1e-12;
 
 impl Row {
-    pub(crate) const fn new(place: (usize, usize)) -> Self {
-        Self { place, numbers: Vec::new(), digits: 0, rounding: 0.0 }
+    pub(crate) const fn new(at: usize) -> Self {
+        Self { at, numbers: Vec::new(), digits: 0, rounding: 0.0 }
     }
 
     /// Adds a number as it is written.
@@ -47,7 +46,7 @@ impl Row {
     /// half a unit of the last printed digit for each number. Numbers that are printed with as many
     /// digits each, wherever their point is, have each a unit of their own, as far as that is small;
     /// of numbers of single precision their bits count.
-    pub(crate) fn normalised(self, notes: &mut Notes) -> Result<Vec<f64>, Wrong> {
+    pub(crate) fn normalised(self, notes: &mut Notes) -> Result<Vec<f64>, (usize, String)> {
         let sum: f64 = self.numbers.iter().sum();
         let off = (sum - 1.0).abs();
         if off <= EXACT {
@@ -62,11 +61,10 @@ impl Row {
         let allowed = allowed * if allowed < OWN { 1.0 + 1e-6 } else { 1.0 - 1e-6 };
         if off >= allowed || sum <= 0.0 {
             let sum = (sum * 1e9).round() / 1e9;
-            let help = "probabilities of a row sum to 1";
-            return Err(Wrong::at(self.place, format!("sums to {sum}")).help(help));
+            return Err((self.at, format!("sums to {sum}")));
         }
         notes.rows += 1;
-        notes.first.get_or_insert(self.place.0);
+        notes.first.get_or_insert(self.at);
         Ok(self.numbers.iter().map(|it| it / sum).collect())
     }
 }
@@ -75,12 +73,14 @@ impl Row {
 #[derive(Debug, Default)]
 pub(crate) struct Notes {
     rows: usize,
+    /// Where the first one begins, in bytes.
     first: Option<usize>,
 }
 
 impl Notes {
-    pub(crate) fn told(&self) -> Vec<String> {
-        let Some(line) = self.first else { return Vec::new() };
+    /// A note, if there is something to say; `line` is the line of a byte.
+    pub(crate) fn told(&self, line: impl Fn(usize) -> usize) -> Vec<String> {
+        let Some(line) = self.first.map(line) else { return Vec::new() };
         let rows = self.rows;
         let row = if rows == 1 { "row misses" } else { "rows miss" };
         vec![format!(

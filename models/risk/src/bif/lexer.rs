@@ -26,7 +26,7 @@ pub(super) struct Lexer<'t> {
 }
 
 /// Characters that end a word without a quote.
-const ENDS: [char; 12] = ['{', '}', '(', ')', '[', ']', ';', ',', '|', '"', '=', '\u{feff}'];
+const ENDS: [char; 11] = ['{', '}', '(', ')', '[', ']', ';', ',', '|', '"', '\u{feff}'];
 
 impl<'t> Lexer<'t> {
     pub(super) fn new(text: &'t str) -> Self {

@@ -236,7 +236,7 @@ impl File<'_> {
             }
         }
         let name = if self.name.is_empty() { "network" } else { self.name };
-        Ok((Network::new(name, nodes)?, notes.told()))
+        Ok((Network::new(name, nodes)?, notes.told(|at| lexer.wrong(at, "").line)))
     }
 
     fn refuse_cycle(&self, lexer: &Lexer<'_>, nodes: &[Node]) -> Result<(), Wrong> {
@@ -299,9 +299,9 @@ impl Tables<'_, '_> {
                 return Err(lexer.wrong(self.block.at, message));
             };
             let of = || if node.parents.is_empty() { String::new() } else { self.words(at) + " " };
-            let told = |it: Wrong| Wrong {
-                message: format!("row {}of {name} {}", of(), it.message),
-                ..it
+            let told = |(at, why): (usize, String)| {
+                let message = format!("row {}of {name} {why}", of());
+                lexer.wrong(at, message).help("probabilities of a row sum to 1")
             };
             table.extend(row.normalised(notes).map_err(told)?);
         }
@@ -317,8 +317,7 @@ impl Tables<'_, '_> {
                 format!("{} has {wants} states, and here are {has} numbers", variable.name);
             return Err(self.lexer.wrong(entry.at, message));
         }
-        let place = self.lexer.wrong(entry.at, "");
-        let mut row = Row::new((place.line, place.column));
+        let mut row = Row::new(entry.at);
         for (at, word) in &entry.numbers {
             self.push(&mut row, *at, word)?;
         }
@@ -343,8 +342,7 @@ impl Tables<'_, '_> {
         let steps = |at: usize| if is_flat { (at, count) } else { (at * states, 1) };
         for (at, row) in rows.iter_mut().enumerate() {
             let (first, step) = steps(at);
-            let place = self.lexer.wrong(entry.at, "");
-            let mut own = Row::new((place.line, place.column));
+            let mut own = Row::new(entry.at);
             for (place, word) in entry.numbers.iter().skip(first).step_by(step).take(states) {
                 self.push(&mut own, *place, word)?;
             }
