@@ -19,10 +19,12 @@ impl fmt::Display for NoAnswer {
     fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Impossible => write!(to, "the evidence has probability 0 in this network"),
-            Self::TooLarge => write!(
-                to,
-                "the network is too large: a table passes {MAX_CELLS} cells, or there are too many pairs"
-            ),
+            Self::TooLarge => {
+                write!(
+                    to,
+                    "too large: a table passes {MAX_CELLS} cells, or there are too many pairs"
+                )
+            }
             Self::Malformed => write!(to, "a variable stands twice, or is not in the network"),
         }
     }

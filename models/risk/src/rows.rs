@@ -43,9 +43,9 @@ impl Row {
     }
 
     /// The row with a sum of 1: as it is, or normalised with a note if it misses that by less than
-    /// half a unit of the last printed digit for each number. Numbers that are printed with as many
-    /// digits each, wherever their point is, have each a unit of their own, as far as that is small;
-    /// of numbers of single precision their bits count.
+    /// half a unit of the last printed digit for each number. Numbers that are printed with as
+    /// many digits each, wherever their point is, have each a unit of their own, as far as that is
+    /// small; of numbers of single precision their bits count.
     pub(crate) fn normalised(self, notes: &mut Notes) -> Result<Vec<f64>, (usize, String)> {
         let sum: f64 = self.numbers.iter().sum();
         let off = (sum - 1.0).abs();
@@ -57,7 +57,7 @@ impl Row {
         let own = if self.rounding < OWN { self.rounding } else { OWN };
         let single = SINGLE * self.numbers.len() as f64;
         let allowed = [own, single].iter().fold(allowed, |most, it| most.max(*it));
-        // Just as much is a slip of a person in a row of two digits, and rounded twice in one of six.
+        // Just as much is a slip of a person in a row of two digits; six digits are rounded twice.
         let allowed = allowed * if allowed < OWN { 1.0 + 1e-6 } else { 1.0 - 1e-6 };
         if off >= allowed || sum <= 0.0 {
             let sum = (sum * 1e9).round() / 1e9;

@@ -2,7 +2,7 @@
 
 use super::constraints::Constraints;
 use super::score::{Families, Score};
-use super::states::{state_bits, tables};
+use super::states::{row_bits, tables};
 use super::subsets::{Subsets, Wanted};
 use crate::dag::{Dag, bits};
 use crate::data::Data;
@@ -44,7 +44,7 @@ pub enum TooMuch {
         /// How many it may take.
         limit: u64,
     },
-    /// The states of a row take more than 63 bits together.
+    /// The states of a row, and the number of rows, take more than 63 bits together.
     States,
 }
 
@@ -58,7 +58,10 @@ impl fmt::Display for TooMuch {
                 let mib = |it: u64| it.div_ceil(1 << 20);
                 write!(to, "it takes {} MiB, and the limit is {} MiB", mib(*are), mib(*limit))
             }
-            Self::States => write!(to, "the states of a row take more than 63 bits together"),
+            Self::States => write!(
+                to,
+                "the states of a row and the number of rows take more than 63 bits together"
+            ),
         }
     }
 }
@@ -135,7 +138,7 @@ pub fn exact(
     if bytes > limits.bytes {
         return Err(TooMuch::Bytes { are: bytes, limit: limits.bytes });
     }
-    if state_bits(data) > 63 {
+    if row_bits(data) > 63 {
         return Err(TooMuch::States);
     }
     if count < 2 {

@@ -3,9 +3,15 @@
 use super::score::{Score, n_log_n};
 use crate::data::Data;
 
-/// Bits that the states of all variables take together.
-pub(super) fn state_bits(data: &Data) -> u32 {
-    (0..data.variables().len()).map(|it| width(data.states(it))).sum()
+/// Bits that the states of all variables and a number of rows take together.
+pub(super) fn row_bits(data: &Data) -> u32 {
+    let states = (0..data.variables().len()).map(|it| width(data.states(it)));
+    states.sum::<u32>() + weight_bits(data)
+}
+
+/// Bits that a number of rows takes.
+pub(super) fn weight_bits(data: &Data) -> u32 {
+    usize::BITS - data.rows().leading_zeros()
 }
 
 pub(super) fn width(states: usize) -> u32 {

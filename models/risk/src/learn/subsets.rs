@@ -5,12 +5,12 @@
 //! one by one). All subsets are counted by one walk down a binary tree: at each level one variable
 //! is taken in, and cuts the cells, or left out. What is left of a row are its states at the levels
 //! below: equal rests in one cell are one entry with a weight, and the entries lie in the order of
-//! their rests, so that they meet. A cell with one or two light entries is not followed any
-//! further: which subsets keep its two entries together is known, and is counted for all of them
+//! their rests, so that they meet. A cell with up to three light entries is not followed any
+//! further: which subsets keep its entries together is known, and is counted for all of them
 //! at once.
 
 use super::score::Score;
-use super::states::{evenness, products, state_bits, strides, table, tables, width};
+use super::states::{evenness, products, row_bits, strides, table, tables, weight_bits, width};
 use crate::data::Data;
 
 /// Weights up to this are counted by their numbers.
@@ -19,13 +19,9 @@ const LIGHT: usize = 8;
 /// Sizes of light cells, by their number.
 type Light = [i32; LIGHT];
 
-/// An entry of a cell: rows with one rest.
-#[derive(Clone, Copy)]
-struct Entry {
-    /// States, of the last level in the most significant bits.
-    rest: u64,
-    weight: u32,
-}
+/// An entry of a cell: rows with one rest, in one number. States stand above the weight, those of
+/// the last level in the most significant bits.
+type Entry = u64;
 
 /// Numbers of all subsets.
 pub(super) struct Subsets {
@@ -46,8 +42,8 @@ pub(super) struct Wanted {
     pub(super) variables: usize,
 }
 
-/// A rest that no row has.
-const APART: u64 = 1 << 63;
+/// An entry that no row makes.
+const APART: Entry = 1 << 63;
 
 /// For each byte of a rest and each of its values the bits of the levels that it touches.
 fn differ(shifts: &[u32]) -> Vec<[u32; 256]> {
@@ -70,6 +66,8 @@ struct Walk {
     shifts: Vec<u32>,
     states: Vec<usize>,
     strides: Vec<usize>,
+    /// The bits of a weight in an entry.
+    weights: Entry,
     tables: Vec<Option<Vec<f64>>>,
     wanted: Wanted,
     /// For each level the most configurations that its variable wants, and the largest of those
@@ -87,7 +85,7 @@ struct Walk {
     cut: Vec<Vec<Entry>>,
     lengths: Vec<usize>,
     /// Rows of each state, in the last cell.
-    sums: Vec<u32>,
+    sums: Vec<usize>,
     /// For each byte of a rest and each value the levels whose states have one of its bits.
     differ: Vec<[u32; 256]>,
 }
@@ -109,7 +107,7 @@ impl Subsets {
     /// bits of states.
     pub(super) fn count(data: &Data, score: Score, wanted: Wanted) -> Self {
         let count = data.variables().len();
-        debug_assert!((2..=30).contains(&count) && state_bits(data) <= 63, "too many variables");
+        debug_assert!((2..=30).contains(&count) && row_bits(data) <= 63, "too many variables");
         // Variables that cut cells small come first.
         let mut variables: Vec<usize> = (0..count).collect();
         let mut order: Vec<(f64, usize)> =
@@ -118,7 +116,7 @@ impl Subsets {
         variables.clear();
         variables.extend(order.iter().map(|it| it.1));
         let states: Vec<usize> = variables.iter().map(|it| data.states(*it)).collect();
-        let mut shifts = vec![0];
+        let mut shifts = vec![weight_bits(data)];
         for it in &states {
             shifts.push(shifts[shifts.len() - 1] + width(*it));
         }
@@ -143,11 +141,12 @@ impl Subsets {
             light: vec![[0; LIGHT]; 1 << count],
             entries: Vec::new(),
             cells: Vec::new(),
-            cut: vec![vec![Entry { rest: APART, weight: 0 }; rests.len() + 1]; most],
+            cut: vec![vec![APART; rests.len() + 1]; most],
             lengths: vec![1; most],
             sums: vec![0; most],
             differ: differ(&shifts),
             rows: data.rows(),
+            weights: (1 << shifts[0]) - 1,
             shifts,
             states,
             strides,
@@ -157,7 +156,7 @@ impl Subsets {
             score,
         };
         for rest in rests {
-            walk.entries.push(Entry { rest, weight: 1 });
+            walk.entries.push(rest + 1);
         }
         let top = Place { level: 0, mask: 0, table: 0, configurations: 1.0, taken: 0, most: 1.0 };
         walk.cells.push(walk.entries.len());
@@ -244,19 +243,20 @@ impl Walk {
         for end in &self.cells[cells..] {
             let (mut total, mut run, mut state) = (0, 0, u64::MAX);
             for entry in &self.entries[start..*end] {
-                if entry.rest >> split != state {
-                    values[1] += last[run as usize];
-                    (run, state) = (0, entry.rest >> split);
+                if entry >> split != state {
+                    values[1] += last[run];
+                    (run, state) = (0, entry >> split);
                 }
-                run += entry.weight;
-                total += entry.weight;
-                sums[(entry.rest >> shift & field) as usize] += entry.weight;
-                values[3] += both[entry.weight as usize];
+                let weight = (entry & self.weights) as usize;
+                run += weight;
+                total += weight;
+                sums[(entry >> shift & field) as usize] += weight;
+                values[3] += both[weight];
             }
-            values[1] += last[run as usize];
-            values[0] += none[total as usize];
+            values[1] += last[run];
+            values[0] += none[total];
             for sum in &mut *sums {
-                values[2] += first[*sum as usize];
+                values[2] += first[*sum];
                 *sum = 0;
             }
             start = *end;
@@ -292,14 +292,13 @@ impl Walk {
             // An entry that is never the same as another one stands first.
             lengths[..states].fill(1);
             for entry in &self.entries[start..end] {
-                let state = (entry.rest >> shift & field) as usize;
+                let state = (entry >> shift & field) as usize;
                 let (part, length) = (&mut cut[state], &mut lengths[state]);
                 let last = part[*length - 1];
                 // Which of both is not foreseen by a machine: no branch.
-                let same = last.rest >> below == entry.rest >> below;
-                let weight = entry.weight + if same { last.weight } else { 0 };
+                let same = (last ^ entry) >> below == 0;
                 let place = *length - usize::from(same);
-                part[place] = Entry { rest: entry.rest, weight };
+                part[place] = entry + if same { last & self.weights } else { 0 };
                 *length = place + 1;
             }
             start = end;
@@ -322,13 +321,12 @@ impl Walk {
         let (mut to, mut from, mut kept) = (start, start, cells);
         for cell in cells..self.cells.len() {
             let (first, stop) = (to, self.cells[cell]);
-            let mut last = Entry { rest: APART, weight: 0 };
+            let mut last = APART;
             while from < stop {
                 let entry = self.entries[from];
-                let same = last.rest >> below == entry.rest >> below;
-                let weight = entry.weight + if same { last.weight } else { 0 };
+                let same = (last ^ entry) >> below == 0;
                 to -= usize::from(same);
-                last = Entry { rest: entry.rest, weight };
+                last = entry + if same { last & self.weights } else { 0 };
                 self.entries[to] = last;
                 to += 1;
                 from += 1;
@@ -336,6 +334,7 @@ impl Walk {
             let small = match self.entries[first..to] {
                 [one] => self.is_resolved(at, &[one]),
                 [one, two] => self.is_resolved(at, &[one, two]),
+                [one, two, three] => self.is_resolved(at, &[one, two, three]),
                 _ => to == first,
             };
             if small {
@@ -349,41 +348,70 @@ impl Walk {
         self.cells.truncate(kept);
     }
 
-    /// Counts a cell of one or two light entries for all subsets below a place; returns whether the
-    /// cell was such a one.
+    /// Counts a cell of up to three light entries for all subsets below a place; returns whether
+    /// the cell was such a one.
     fn is_resolved(&mut self, at: Place, cell: &[Entry]) -> bool {
         // Nothing is won by it at the last levels, which look at each cell once.
         if at.level + 2 >= self.states.len() {
-            return matches!(cell, [Entry { weight: 1, .. }]);
+            return matches!(cell, [one] if one & self.weights == 1);
+        }
+        let weights = self.weights;
+        let weight = |it: Entry| (it & weights) as usize;
+        let total = cell.iter().take(4).map(|it| weight(*it)).sum();
+        if cell.len() > 3 || total > LIGHT {
+            return false;
         }
         let everything = self.bit(at.level) * 2 - 1;
-        let weight = |it: &Entry| it.weight as usize;
-        match cell {
-            [one] if weight(one) <= LIGHT => {
-                if one.weight > 1 {
-                    self.light[at.mask | everything][weight(one) - 1] += 1;
-                }
-                true
+        // Each entry alone, wherever nothing else is said.
+        cell.iter().for_each(|it| self.add(at.mask | everything, weight(*it), 1));
+        let agreed = |one: Entry, two: Entry| everything & !self.differing(one ^ two);
+        match *cell {
+            [one, two] => {
+                let both = agreed(one, two);
+                self.join(at.mask | both, weight(one), weight(two));
             }
-            [one, two] if weight(one) + weight(two) <= LIGHT => {
-                let mut agreed = everything;
-                let mut differ = one.rest ^ two.rest;
-                for bytes in &self.differ {
-                    agreed &= !(bytes[(differ & 0xff) as usize] as usize);
-                    differ >>= 8;
+            [one, two, three] => {
+                let (first, second, third) =
+                    (agreed(one, two), agreed(one, three), agreed(two, three));
+                let (one, two, three) = (weight(one), weight(two), weight(three));
+                self.join(at.mask | first, one, two);
+                self.join(at.mask | second, one, three);
+                self.join(at.mask | third, two, three);
+                // Where all agree, three pairs were joined.
+                let all = at.mask | first & second;
+                self.add(all, total, 1);
+                for own in [one, two, three] {
+                    self.add(all, total - own, -1);
+                    self.add(all, own, 1);
                 }
-                let agreed = at.mask | agreed;
-                let (one, two) = (weight(one), weight(two));
-                self.light[at.mask | everything][one - 1] += 1;
-                self.light[at.mask | everything][two - 1] += 1;
-                let both = &mut self.light[agreed];
-                both[one + two - 1] += 1;
-                both[one - 1] -= 1;
-                both[two - 1] -= 1;
-                true
             }
-            _ => false,
+            _ => {}
         }
+        true
+    }
+
+    /// Levels, by their bits, that have one of these bits.
+    fn differing(&self, mut bits: u64) -> usize {
+        let mut levels = 0;
+        for bytes in &self.differ {
+            levels |= bytes[(bits & 0xff) as usize];
+            bits >>= 8;
+        }
+        levels as usize
+    }
+
+    /// Counts cells of so many rows, in all subsets below a mask; one row counts for nothing.
+    fn add(&mut self, mask: usize, weight: usize, count: i32) {
+        if weight > 1 {
+            self.light[mask][weight - 1] += count;
+        }
+    }
+
+    /// Counts two entries as one cell.
+    fn join(&mut self, mask: usize, one: usize, two: usize) {
+        self.add(mask, one + two, 1);
+        self.add(mask, one, -1);
+        self.add(mask, two, -1);
     }
 
     /// Adds light cells, and for `BDeu` what all rows have alone.
