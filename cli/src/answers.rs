@@ -13,6 +13,7 @@ pub(crate) mod floor;
 pub(crate) mod fmeca;
 pub(crate) mod model;
 pub(crate) mod new;
+pub(crate) mod risk;
 pub(crate) mod supervised;
 pub(crate) mod team;
 

@@ -14,6 +14,7 @@ mod model;
 mod new;
 mod number;
 mod recording;
+mod risk;
 mod schema;
 mod team;
 
@@ -33,6 +34,11 @@ pub(crate) use mission::{
 pub(crate) use model::{DrawnAs, ExportArgs, Format, ModelsArgs, SimulateArgs};
 pub(crate) use new::{NewArgs, NewKind};
 pub(crate) use recording::RecordingArgs;
+pub(crate) use risk::{
+    ChoiceRuleName, ChooseArgs, CoherenceArgs, DiscretiseArgs, FixedArgs, InferArgs, LearnArgs,
+    Level, MemoryName, MethodName, RiskArgs, RiskCommand, RuleName, SampleArgs, ScoreName,
+    SeparatedArgs,
+};
 pub(crate) use schema::{SchemaArgs, SchemaName};
 pub(crate) use team::TeamArgs;
 
@@ -243,6 +249,13 @@ Examples:
     /// Neither the number of threads nor the split into shards changes a byte of the results.
     #[command(after_long_help = campaign::CAMPAIGN_EXAMPLES)]
     Campaign(CampaignArgs),
+    /// Learns from runs what performance depends on, and chooses with a known risk
+    ///
+    /// Bayesian networks: learned from a table of runs, asked for probabilities, and used to choose
+    /// a way whose trials may fail, by the mean or a quantile of its cost (Rohrmueller, TU Munich
+    /// 2011, chapter 4).
+    #[command(after_long_help = risk::RISK_EXAMPLES)]
+    Risk(RiskArgs),
     /// Begins a mission, an FMECA, a supervisor, a system of supervisors or a board of your own
     ///
     /// What is written works as it is, and says what each part is for. Nothing is replaced.

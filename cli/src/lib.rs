@@ -43,6 +43,7 @@ pub mod readers;
 mod recording;
 mod render;
 mod replay;
+mod risk;
 mod robot;
 mod run;
 mod schemas;
@@ -167,6 +168,7 @@ fn ended(command: Command, screen: &Screen) -> Result<Exit, Failure> {
         Command::Floor(args) => floor::floor(&args, screen),
         Command::Fmeca(args) => fmeca::fmeca(&args, screen),
         Command::Campaign(args) => campaign::campaign(&args, screen),
+        Command::Risk(args) => risk::risk(&args, screen),
         Command::New(args) => new::new(&args, screen),
         Command::Show(args) => show::show(&args),
         Command::Table(args) => about::table(&args, screen),

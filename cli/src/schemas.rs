@@ -63,6 +63,9 @@ mod tests {
     use crate::answers::fmeca::{FmecaAnswer, MeasureAnswer};
     use crate::answers::model::{ModelsAnswer, SimulateAnswer};
     use crate::answers::new::NewAnswer;
+    use crate::answers::risk::{
+        ChooseAnswer, CoherenceAnswer, DiscretiseAnswer, InferAnswer, LearnAnswer, SeparatedAnswer,
+    };
     use crate::answers::team::TeamAnswer;
     use crate::answers::{AllocateAnswer, ListAnswer, PlanAnswer, ReplayAnswer, RunAnswer};
     use cotama_verification::conform::LINE_SCHEMA;
@@ -114,6 +117,12 @@ mod tests {
             ("fmeca", of::<FmecaAnswer>()),
             ("measure", of::<MeasureAnswer>()),
             ("campaign", of::<CampaignAnswer>()),
+            ("risk-learn", of::<LearnAnswer>()),
+            ("risk-infer", of::<InferAnswer>()),
+            ("risk-coherence", of::<CoherenceAnswer>()),
+            ("risk-discretise", of::<DiscretiseAnswer>()),
+            ("risk-separated", of::<SeparatedAnswer>()),
+            ("risk-choose", of::<ChooseAnswer>()),
             ("new", of::<NewAnswer>()),
             ("error", of::<ErrorAnswer>()),
         ];

@@ -27,7 +27,7 @@ pub(crate) const COMMANDS: [&str; 21] = [
 ];
 
 /// The examples of a help text, each with the lines in which it goes on, and a comment.
-fn examples(help: &str) -> Vec<String> {
+pub(crate) fn examples(help: &str) -> Vec<String> {
     let mut examples: Vec<String> = Vec::new();
     let mut goes_on = false;
     for line in help.lines() {

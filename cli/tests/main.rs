@@ -45,6 +45,7 @@ mod questions;
 mod recording;
 mod reference;
 mod replay;
+mod risk;
 mod robots;
 mod run;
 mod sarif;

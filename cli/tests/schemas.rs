@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
 
-const COMMANDS: [&str; 22] = [
+const COMMANDS: [&str; 28] = [
     "list",
     "plan",
     "plan-axes",
@@ -28,6 +28,12 @@ const COMMANDS: [&str; 22] = [
     "fmeca",
     "measure",
     "campaign",
+    "risk-learn",
+    "risk-infer",
+    "risk-coherence",
+    "risk-discretise",
+    "risk-separated",
+    "risk-choose",
     "new",
     "error",
 ];

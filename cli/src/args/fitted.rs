@@ -29,9 +29,9 @@ pub(crate) fn command(width: usize) -> clap::Command {
         if is_number { arg.allow_negative_numbers(true) } else { arg }
     };
     let fit = |command: clap::Command| fit(command).mut_args(number);
-    let names: Vec<_> = program.get_subcommands().map(|it| it.get_name().to_owned()).collect();
     let program = fit(program).term_width(width);
-    names.iter().fold(program, |program, name| program.mut_subcommand(name, fit))
+    let each = |command: clap::Command| command.mut_subcommands(fit);
+    program.mut_subcommands(|it| each(fit(it)))
 }
 
 /// How an example begins, and how it goes on in another line.

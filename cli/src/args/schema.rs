@@ -36,6 +36,12 @@ pub(crate) enum SchemaName {
     Fmeca,
     Measure,
     Campaign,
+    RiskLearn,
+    RiskInfer,
+    RiskCoherence,
+    RiskDiscretise,
+    RiskSeparated,
+    RiskChoose,
     New,
     /// A line of a recorded run
     Recording,

@@ -18,6 +18,7 @@ pub(crate) mod models;
 pub(crate) mod numbers;
 pub(crate) mod plan;
 pub(crate) mod reason;
+pub(crate) mod risk;
 pub(crate) mod run;
 pub(crate) mod simulate;
 pub(crate) mod snippet;

@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""Read networks of `cotama risk` with pgmpy and pyAgrum, and theirs with it.
+
+    cargo build --release -p cotama
+    python tests/evidence/compare/networks.py [--cotama target/release/cotama]
+
+Networks are learned from the data of `models/risk/data`, written as BIF, read and
+written again by both, and asked the same questions. Posteriors of pgmpy must agree to
+1e-12; those of pyAgrum to 1e-6, as it keeps numbers in single precision. Then the time
+of a query of pyAgrum on this machine is printed; ours is printed by
+`cargo bench -p cotama-risk --bench risk`.
+
+Exit status: 0 when all agree, 1 when something differs, 77 when a package is missing.
+"""
+
+import argparse
+import json
+import random
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+try:
+    import pyagrum
+    from pgmpy.inference import VariableElimination
+    from pgmpy.readwrite import BIFReader, BIFWriter
+except ImportError as missing:
+    print(f"SKIPPED, NOTHING IS SHOWN: {missing}; pip install -r requirements.txt", file=sys.stderr)
+    sys.exit(77)
+
+ROOT = Path(__file__).resolve().parents[3]
+DATA = ROOT / "models/risk/data"
+QUERIES = [
+    ("cancer", "Cancer", {"Xray": "positive", "Dyspnoea": "True"}),
+    ("asia", "lung", {"dysp": "yes", "xray": "yes"}),
+    ("two_ways", "ratio", {"status": "failed", "way": "short", "object_speed": "medium"}),
+    ("sixteen", "v5", {"v9": "0", "v10": "1", "v14": "0"}),
+]
+
+
+def cotama(program, *words):
+    done = subprocess.run([program, "risk", *words], capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"cotama risk {' '.join(words)}: {done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def ours(program, path, query, evidence):
+    known = [word for pair in evidence.items() for word in ("--evidence", "=".join(pair))]
+    answer = cotama(program, "infer", str(path), "--query", query, *known, "--json")
+    return json.loads(answer)["posterior"]
+
+
+def off(posterior, theirs):
+    return max(abs(share - theirs(state)) for state, share in posterior.items())
+
+
+def agrum(network, query, evidence):
+    inference = pyagrum.VariableElimination(network)
+    inference.setEvidence(evidence)
+    inference.makeInference()
+    return inference.posterior(query)
+
+
+def compare(program, folder, name, rng):
+    """The largest differences: ours read by pgmpy, by pyAgrum, theirs read by us."""
+    path = folder / f"{name}.bif"
+    cotama(program, "learn", str(DATA / f"{name}.csv"), "--method", "k2", "--out", str(path))
+    model, network = BIFReader(str(path)).get_model(), pyagrum.loadBN(str(path))
+    elimination = VariableElimination(model)
+    others = [folder / f"{name}.{end}" for end in ("pgmpy.bif", "agrum.bif", "agrum.bifxml")]
+    BIFWriter(model).write_bif(str(others[0]))
+    pyagrum.saveBN(network, str(others[1]))
+    pyagrum.saveBN(network, str(others[2]))
+    names, worst = sorted(model.nodes()), [0.0] * 5
+    for _ in range(6):
+        query, *known = rng.sample(names, 3)
+        evidence = {it: rng.choice(model.states[it]) for it in known}
+        own = ours(program, path, query, evidence)
+        theirs = elimination.query([query], evidence=evidence, show_progress=False)
+        found = [off(own, lambda state: theirs.get_value(**{query: state}))]
+        theirs = agrum(network, query, evidence)
+        found.append(off(own, lambda state: theirs[{query: state}]))
+        found += [off(own, ours(program, it, query, evidence).get) for it in others]
+        worst = [max(pair) for pair in zip(worst, found)]
+    return worst
+
+
+def microseconds(name, query, evidence):
+    network, best = pyagrum.loadBN(str(DATA / f"{name}.bif")), float("inf")
+    for _ in range(7):
+        start = time.perf_counter()
+        for _ in range(200):
+            agrum(network, query, evidence)
+        best = min(best, (time.perf_counter() - start) / 200)
+    return best * 1e6
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--cotama", default=str(ROOT / "target/release/cotama"))
+    program, rng, agrees = parser.parse_args().cotama, random.Random(1), True
+    print("largest difference of a posterior")
+    print(f"{'':10} ours in pgmpy  in pyAgrum  pgmpy's BIF  pyAgrum's BIF  its XMLBIF")
+    with tempfile.TemporaryDirectory() as folder:
+        for name, *_ in QUERIES:
+            worst = compare(program, Path(folder), name, rng)
+            print(f"{name:10} {''.join(f'{it:12.1e}' for it in worst)}")
+            limits = [1e-12, 1e-6, 1e-12, 1e-6, 1e-5]
+            agrees &= all(it < limit for it, limit in zip(worst, limits))
+    print("pyAgrum, variable elimination, least of 7 means of 200 queries")
+    for query in QUERIES:
+        print(f"{query[0]:10} {microseconds(*query):8.1f} us")
+    print("all agree" if agrees else "THEY DIFFER")
+    return 0 if agrees else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
