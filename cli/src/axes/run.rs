@@ -10,7 +10,7 @@ use crate::exit::{Exit, Failure};
 use crate::output::Screen;
 use crate::render;
 use cotama_axes::{Course, Kind, Mission, Script, label};
-use cotama_axes_run::{Cause, NotRun, Outcome, Planned, Run, run as drive};
+use cotama_tours::{Cause, NotRun, Outcome, Planned, Run, run as drive};
 
 /// Runs a mission with axes: plans it, lets happen what its file says, plans again.
 pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {

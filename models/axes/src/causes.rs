@@ -21,11 +21,11 @@ pub struct Causes {
 /// An indicator.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Effect {
-    /// Its name and unit, then a line for each of its constraints.
+    /// Name and unit, then a line for each of its constraints.
     pub lines: Vec<String>,
     /// The inducers that act on it, by index.
     pub inducers: Vec<usize>,
-    /// Its axis, by index.
+    /// The axis, by index.
     pub axis: usize,
 }
 

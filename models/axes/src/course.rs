@@ -1,15 +1,15 @@
-//! What happens on the way that no formula knows, and the return that a mission asks for.
+//! Events and errors that no formula knows, and the return that a mission asks for.
 
-/// A mission's way through the world: what happens, and what must never happen.
+/// A mission's way through the world: events, and what must never happen.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Course {
-    /// What happens.
+    /// Events, and errors of formulas.
     pub script: Script,
     /// The return that is kept, where the mission asks for one.
     pub home: Option<Return>,
 }
 
-/// What happens on the way.
+/// Events on the way, and errors of formulas.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Script {
     /// Events, in any order.
@@ -23,11 +23,11 @@ pub struct Script {
 pub struct Event {
     /// The place, mm.
     pub x_mm: i64,
-    /// What happens.
+    /// The kind of the event.
     pub what: What,
 }
 
-/// What happens at a place.
+/// A kind of event.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum What {
     /// Sums grow: a wait costs time and energy. By indicator.
@@ -47,7 +47,7 @@ pub struct ModelError {
     pub permille: i64,
 }
 
-/// What a return withstands: all of it together, at any time.
+/// Faults that a return withstands, all of them together, at any time.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Return {
     /// Units of hardware, by its index, that may be lost.

@@ -253,8 +253,8 @@ impl Relation {
         }
     }
 
-    /// Returns the margin of a value (Section 7.2.3, equation 7): the goal less the value; with the sign turned for
-    /// an `at least`; of an equality the distance, below zero.
+    /// Returns the margin of a value (Section 7.2.3, equation 7): the goal less the value; with the
+    /// sign turned for an `at least`; of an equality the distance, below zero.
     pub const fn margin(self, value: i64, goal: i64) -> i64 {
         match self {
             Self::Below => goal - 1 - value,

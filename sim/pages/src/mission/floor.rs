@@ -181,8 +181,8 @@ fn poses(view: &View<'_>, pixels: &Pixels) -> (String, String) {
     );
     let radius = fixed(PERSON_M * pixels.scale);
     let person = format!(
-        "<circle class=\"person\" visibility=\"hidden\" r=\"{radius}\"><title>a person, or a thing on \
-         no map</title></circle>"
+        "<circle class=\"person\" visibility=\"hidden\" r=\"{radius}\"><title>a person, or a \
+         thing on no map</title></circle>"
     );
     let lines = lines + &person.repeat(count);
     (json.join(","), lines)

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use cotama_axes::{Ask, Case, Course, Event, ModelError, PATROL, Script, Sense, What};
-use cotama_axes_run::{Cause, Outcome, Run, run};
+use cotama_tours::{Cause, Outcome, Run, run};
 
 fn patrol() -> Case {
     Case::parse(PATROL).unwrap()

@@ -2,13 +2,48 @@
 #![allow(clippy::unwrap_used)]
 
 use cotama_axes::{Case, Course, Event, Mission, ModelError, Return, Script, What};
-use cotama_axes_run::{NotRun, Outcome, Run, run};
 use cotama_streams::{Stream, Streams};
+use cotama_tours::{NotRun, Outcome, Run, run};
 use std::fmt::Write;
 
 fn from(stream: &mut Stream, least: u64, most: u64) -> i64 {
     i64::try_from(least + stream.below(most - least + 1)).unwrap()
 }
+
+/// Axes: a candidate's speed leaves room to brake before what its detector sees at last; energy and
+/// time add up.
+const SAFE_AND_SUMMED: &str = r#"
+[[axis]]
+id = "safety"
+[[axis.indicator]]
+id = "room"
+unit = "mm"
+combine = "each"
+travel = """zone_min(way_mm) - div_up(speed_mm_s * (detector(detect_ms) + 100), 1000) \
+    - div_up(speed_mm_s * speed_mm_s, 600)"""
+[[axis]]
+id = "energy"
+[[axis.indicator]]
+id = "use"
+unit = "mJ"
+combine = "sum"
+travel = "div_near((motion_mw + hardware(power_mw)) * duration_ms, 1000)"
+stand = "div_near((3000 + hardware(power_mw)) * duration_ms, 1000)"
+[[axis]]
+id = "duration"
+[[axis.indicator]]
+id = "time"
+unit = "ms"
+combine = "sum"
+travel = "duration_ms"
+stand = "duration_ms"
+[[constraint]]
+id = "room"
+indicator = "safety.room"
+kind = "core"
+op = ">"
+goal = 0
+"#;
 
 /// A round or a one-way trip with one to five drives, tasks between them, a laser that may be lost,
 /// and limits of time and energy that a plan just keeps, or by far.
@@ -27,13 +62,14 @@ fn mission(stream: &mut Stream) -> String {
         from(stream, 500, 3_000),
         from(stream, 2_000, 9_000),
     );
-    text += "[[tio]]\nid = \"Slow\"\ntask = \"MOV\"\nneeds = { sonar = 1 }\n[[tio]]\nid = \"Fast\"\n\
-             task = \"MOV\"\nneeds = { laser = 1 }\n";
+    text += "[[tio]]\nid = \"Slow\"\ntask = \"MOV\"\nneeds = { sonar = 1 }\n\
+             [[tio]]\nid = \"Fast\"\ntask = \"MOV\"\nneeds = { laser = 1 }\n";
     for (id, needs) in [("Look", "sonar"), ("Scan", "laser")] {
         let stands = from(stream, 2, 40) * 1_000;
         let _ = write!(
             text,
-            "[[tio]]\nid = \"{id}\"\ntask = \"DET\"\nneeds = {{ {needs} = 1 }}\nstand_ms = {stands}\n"
+            "[[tio]]\nid = \"{id}\"\ntask = \"DET\"\nneeds = {{ {needs} = 1 }}\n\
+             stand_ms = {stands}\n"
         );
     }
     let mut x = 0;
@@ -61,16 +97,7 @@ fn mission(stream: &mut Stream) -> String {
         from(stream, 300, 700),
         from(stream, 300, 700),
     );
-    // A candidate's speed leaves room to brake before what its detector sees at last.
-    text += "[[axis]]\nid = \"safety\"\n[[axis.indicator]]\nid = \"room\"\nunit = \"mm\"\n\
-             combine = \"each\"\ntravel = \"zone_min(way_mm) - div_up(speed_mm_s * (detector(detect_ms) + \
-             100), 1000) - div_up(speed_mm_s * speed_mm_s, 600)\"\n[[axis]]\nid = \"energy\"\n\
-             [[axis.indicator]]\nid = \"use\"\nunit = \"mJ\"\ncombine = \"sum\"\n\
-             travel = \"div_near((motion_mw + hardware(power_mw)) * duration_ms, 1000)\"\n\
-             stand = \"div_near((3000 + hardware(power_mw)) * duration_ms, 1000)\"\n[[axis]]\n\
-             id = \"duration\"\n[[axis.indicator]]\nid = \"time\"\nunit = \"ms\"\ncombine = \"sum\"\n\
-             travel = \"duration_ms\"\nstand = \"duration_ms\"\n[[constraint]]\nid = \"room\"\n\
-             indicator = \"safety.room\"\nkind = \"core\"\nop = \">\"\ngoal = 0\n";
+    text += SAFE_AND_SUMMED;
     for (id, indicator, each_m) in
         [("energy", "energy.use", from(stream, 18_000, 90_000)), ("time", "duration.time", 9_000)]
     {

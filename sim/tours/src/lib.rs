@@ -13,7 +13,7 @@
 //!
 //! ```
 //! use cotama_axes::{Case, PATROL};
-//! use cotama_axes_run::{Outcome, run};
+//! use cotama_tours::{Outcome, run};
 //!
 //! let case = Case::parse(PATROL).unwrap();
 //! let run = run(&case).unwrap();
