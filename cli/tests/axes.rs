@@ -93,7 +93,7 @@ fn a_mission_with_axes_is_found_by_its_name() {
     let listed = folder.cotama(&["list", "--json"]).json(0);
     let missions = listed["missions"].as_array().unwrap();
     assert!(missions.iter().any(|it| it["name"] == "patrol-axes"), "{listed}");
-    let error = folder.cotama(&["run", "patrol-axes", "--json"]).json(2);
+    let error = folder.cotama(&["campaign", "patrol-axes", "--json"]).json(2);
     assert_eq!(
         error["message"],
         "`patrol-axes` is a mission with axes, and a plain one is needed here"
@@ -204,6 +204,6 @@ fn options_of_other_missions_are_refused() {
     folder.write("patrol.toml", PATROL);
     let error = folder.cotama(&["plan", "patrol.toml", "--lost", "laser", "--json"]).json(2);
     assert_eq!(error["message"], "--lost: a mission with axes says all of this in its file");
-    let error = folder.cotama(&["run", "patrol.toml", "--json"]).json(2);
+    let error = folder.cotama(&["campaign", "patrol.toml", "--json"]).json(2);
     assert_eq!(error["help"], "try `cotama plan patrol.toml`");
 }
