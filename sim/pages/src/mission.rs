@@ -21,6 +21,7 @@ mod path_axis;
 mod plans;
 mod replans;
 mod series;
+mod sight;
 mod story;
 mod strip;
 mod timeline;

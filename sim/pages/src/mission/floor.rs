@@ -2,6 +2,7 @@
 //! slider moves through time.
 
 use super::MAX_POINTS;
+use super::sight::Sight;
 use super::view::View;
 use crate::format::{metres as in_metres, moment};
 use crate::player::Player;
@@ -38,8 +39,9 @@ pub(super) fn section(view: &View<'_>) -> String {
                 format!("[{},{x},{y}]", it.along_mm)
             })
             .collect();
-        let (poses, tracks) = poses(view, pixels);
-        data = format!("\"way\":[{}],\"poses\":[{poses}],{}", all.join(","), moments(view));
+        let (poses, rays, tracks) = poses(view, pixels);
+        let all = all.join(",");
+        data = format!("\"way\":[{all}],\"poses\":[{poses}],\"rays\":[{rays}],{}", moments(view));
         let mut over = format!("{tracks}<g class=\"points\">");
         for point in view.points.iter().take(MAX_POINTS) {
             let number = point.number;
@@ -143,10 +145,10 @@ fn place(corners: &[Corner], x_mm: u64, at: impl Fn([i32; 2]) -> [f64; 2]) -> [f
     [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * share)
 }
 
-/// Poses of the robot over time as JSON, each with a turn in degrees clockwise and the places of
-/// the people; with the people, and where it was and believed to be as lines; empty for a run on a
-/// line.
-fn poses(view: &View<'_>, pixels: &Pixels) -> (String, String) {
+/// Poses of the robot over time as JSON, each with a turn in degrees clockwise, the place where it
+/// believed to be, and the places of the people; the ends of its rays at each; and people, rays,
+/// and where it was and believed to be, as drawings. Empty for a run on a line.
+fn poses(view: &View<'_>, pixels: &Pixels) -> (String, String, String) {
     let poses = view.trace.records.iter().filter_map(|it| match it {
         Record::Pose(it) => Some(it),
         _ => None,
@@ -155,6 +157,8 @@ fn poses(view: &View<'_>, pixels: &Pixels) -> (String, String) {
     let every = poses.len().div_ceil(MOST).max(1);
     let last = poses.len().saturating_sub(1);
     let poses = poses.iter().enumerate().filter(|it| it.0 % every == 0 || it.0 == last);
+    let sight = Sight::of(view);
+    let mut rays = Vec::new();
     let (mut json, mut lines, mut count) = (Vec::new(), [Vec::new(), Vec::new()], 0);
     for (_, it) in poses {
         let told = it.believed.map_or(it.odometry_mm, |it| it.0);
@@ -162,7 +166,10 @@ fn poses(view: &View<'_>, pixels: &Pixels) -> (String, String) {
         let turn = f64::from(-it.heading_mrad) * 0.18 / core::f64::consts::PI;
         let [x, y] = &at;
         let people = it.people_mm.iter().flat_map(|it| pixels.at(metres(*it)).map(fixed));
-        let row = [(it.t_us / 1_000).to_string(), x.clone(), y.clone(), fixed(turn)];
+        let [told_x, told_y] = &told;
+        let t_ms = (it.t_us / 1_000).to_string();
+        let row = [t_ms, x.clone(), y.clone(), fixed(turn), told_x.clone(), told_y.clone()];
+        rays.extend(sight.as_ref().map(|sight| sight.ends(it.at_mm, it.heading_mrad, pixels)));
         let row: Vec<_> = row.into_iter().chain(people).collect();
         json.push(format!("[{}]", row.join(",")));
         count = count.max(it.people_mm.len());
@@ -171,7 +178,7 @@ fn poses(view: &View<'_>, pixels: &Pixels) -> (String, String) {
         believed.push(told.join(","));
     }
     if json.is_empty() {
-        return (String::new(), String::new());
+        return Default::default();
     }
     let [driven, believed] = lines.map(|it| it.join(" "));
     let lines = format!(
@@ -184,8 +191,11 @@ fn poses(view: &View<'_>, pixels: &Pixels) -> (String, String) {
         "<circle class=\"person\" visibility=\"hidden\" r=\"{radius}\"><title>a person, or a \
          thing on no map</title></circle>"
     );
-    let lines = lines + &person.repeat(count);
-    (json.join(","), lines)
+    let moving = "<path class=\"rays\"><title>how far its devices could see</title></path>\
+                  <circle class=\"told\" r=\"4\" visibility=\"hidden\"><title>where it believes to \
+                  be</title></circle>";
+    let lines = lines + moving + &person.repeat(count);
+    (json.join(","), rays.join(","), lines)
 }
 
 /// Places of the robot over time, and the configurations that run: as JSON.

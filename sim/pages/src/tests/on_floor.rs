@@ -62,6 +62,21 @@ fn corridors_that_are_longer_than_the_mission_say_what_makes_them_so() {
 }
 
 #[test]
+fn a_robot_in_the_plane_has_the_rays_of_its_sonars_at_each_pose() {
+    let known = cotama_models::missions::embedded::mission("delivery").unwrap();
+    let mission = Mission::parse(known.name, known.text).unwrap();
+    let options = Options { fidelity: Fidelity::Plane, ..Options::default() };
+    let run = run(&html(&Trace::record(&mission, &options).unwrap().0));
+    let [poses, rays] = ["poses", "rays"].map(|it| run[it].as_array().unwrap().clone());
+    assert_eq!(poses.len(), rays.len());
+    assert!(rays.iter().all(|it| it.as_array().unwrap().len() == 32));
+    // At the start, in the middle of its corridor, left and right are as far.
+    let of = |row: &serde_json::Value, at: usize| row[at].as_f64().unwrap();
+    let side = |end: usize| (of(&rays[0], end) - of(&poses[0], 2)).abs();
+    assert!((side(1) - side(15)).abs() < 0.2 && side(1) > 10.0, "{} {}", side(1), side(15));
+}
+
+#[test]
 fn points_of_the_story_stand_on_the_floor_and_each_curve_has_its_cursor() {
     let page = page();
     let (_, section) = page.split_once("<section class=\"onfloor\">").unwrap();
