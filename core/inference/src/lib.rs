@@ -50,7 +50,7 @@ pub struct Operand<'a> {
 /// Tables multiplied, and a variable summed out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Step<'a> {
-    /// What is multiplied.
+    /// Factors of the product.
     pub operands: &'a [Operand<'a>],
     /// States of the variables of the result, the last fastest; at most [`MAX_RANK`].
     pub shape: &'a [u16],
@@ -94,7 +94,7 @@ pub struct Answer {
 }
 
 impl Query<'_> {
-    /// How many states the query has.
+    /// Number of states of the query.
     pub fn states(&self) -> usize {
         let last = self.steps.last().map_or(&[][..], |it| it.shape);
         last.iter().map(|it| usize::from(*it)).product()
@@ -105,7 +105,7 @@ impl Query<'_> {
         self.steps.last().map_or(0, |it| self.lost(it, self.steps.len()))
     }
 
-    /// What a cell of the result of a step loses; a result is of one of the first `before` steps.
+    /// Loss of a cell of the result of a step; a result is of one of the first `before` steps.
     fn lost(&self, step: &Step<'_>, before: usize) -> u64 {
         let one = |operand: &Operand<'_>| {
             if !operand.is_result {

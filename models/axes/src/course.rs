@@ -54,6 +54,6 @@ pub struct Return {
     pub losses: Vec<(usize, i64)>,
     /// By how much real values may exceed planned ones, by indicator in parts of a thousand.
     pub errors: Vec<(usize, i64)>,
-    /// How much events may cost in all, by indicator.
+    /// Costs of all events together, by indicator.
     pub costs: Vec<(usize, i64)>,
 }

@@ -44,7 +44,7 @@ pub struct Case {
     pub mission: Mission,
     /// Wishes; the first counts most.
     pub ask: Vec<Ask>,
-    /// What happens on the way, and the return that is asked for.
+    /// Events on the way, and the return that is asked for.
     pub course: Course,
 }
 

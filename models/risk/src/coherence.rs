@@ -1,4 +1,4 @@
-//! How strongly two variables hang together: mutual information over joint entropy.
+//! Coherence of two variables: mutual information over joint entropy.
 
 use crate::infer::{NoAnswer, Plan, Scratch};
 use crate::network::Network;

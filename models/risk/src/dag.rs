@@ -183,8 +183,8 @@ impl Class {
     }
 }
 
-/// How many directed acyclic graphs so many variables have (Robinson 1973; Rohrmueller 2011, eq.
-/// 4.6); none beyond 128 bits.
+/// Returns the number of directed acyclic graphs over so many variables (Robinson 1973;
+/// Rohrmueller 2011, eq. 4.6); none beyond 128 bits.
 ///
 /// ```
 /// use cotama_risk::dags;

@@ -102,7 +102,7 @@ impl Data {
         named(&self.variables, name)
     }
 
-    /// How many states a variable has.
+    /// Returns the number of states of a variable.
     pub(crate) fn states(&self, variable: usize) -> usize {
         self.variables.get(variable).map_or(0, |it| it.states.len())
     }

@@ -13,12 +13,12 @@ pub const MAX_BINS: usize = 256;
 pub enum Rule {
     /// All steps have the same width, from the smallest value to the largest.
     Width {
-        /// How many steps.
+        /// Number of steps.
         bins: usize,
     },
     /// All steps have the same number of values, as far as equal values allow.
     Frequency {
-        /// How many steps.
+        /// Number of steps.
         bins: usize,
     },
     /// Cuts that tell most of another column, as long as each pays for its description: the
@@ -36,7 +36,7 @@ pub struct Cuts {
     pub name: String,
     /// The cuts, rising: a step holds the values from a cut up to, but without, the next one.
     pub cuts: Vec<f64>,
-    /// How many values each step holds; the steps are one more than the cuts.
+    /// Number of values in each step; the steps are one more than the cuts.
     pub counts: Vec<usize>,
 }
 
@@ -169,7 +169,7 @@ fn by_class(values: &[f64], class: &[usize]) -> Vec<f64> {
 }
 
 impl Classes {
-    /// Where to cut rows `from..to`, if a cut pays.
+    /// Returns where to cut rows `from..to`, if a cut pays.
     fn cut(&self, from: usize, to: usize) -> Option<usize> {
         let mut right = vec![0_usize; self.count];
         self.values[from..to].iter().for_each(|it| right[it.1] += 1);
@@ -197,10 +197,10 @@ impl Classes {
     }
 }
 
-/// How rows spread over classes.
+/// Counts of rows over classes.
 struct Spread {
     rows: f64,
-    /// How many classes occur.
+    /// Number of classes that occur.
     classes: f64,
     /// In bits.
     entropy: f64,

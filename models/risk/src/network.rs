@@ -6,7 +6,7 @@ use crate::wrong::Wrong;
 /// The most probabilities of all tables together.
 pub const MAX_CELLS: usize = 1 << 24;
 
-/// How far a row of a table may be from a sum of 1.
+/// Distance that the sum of a row of a table may have from 1.
 pub(crate) const SUM: f64 = 1e-9;
 
 /// A variable with its parents and its table.
@@ -138,7 +138,7 @@ impl Network {
         Ok((at, found))
     }
 
-    /// How many states a variable has.
+    /// Returns the number of states of a variable.
     pub(crate) fn states(&self, variable: usize) -> usize {
         self.nodes[variable].variable.states.len()
     }
@@ -158,7 +158,7 @@ fn too_large(name: &str) -> Wrong {
     Wrong::whole(message).help("give it fewer parents, or fewer states")
 }
 
-/// How many configurations these parents have.
+/// Returns the number of configurations of these parents.
 pub(crate) fn configurations(nodes: &[Node], parents: &[usize]) -> Result<usize, Wrong> {
     let states = |it: &usize| nodes.get(*it).map(|it| it.variable.states.len());
     let all = parents.iter().try_fold(1_usize, |all, it| all.checked_mul(states(it)?));

@@ -3,7 +3,7 @@
 /// A row of a table.
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
-    /// Where it begins, in bytes.
+    /// Begin, in bytes.
     at: usize,
     numbers: Vec<f64>,
     /// The most digits behind the point of any of its numbers.
@@ -73,7 +73,7 @@ impl Row {
 #[derive(Debug, Default)]
 pub(crate) struct Notes {
     rows: usize,
-    /// Where the first one begins, in bytes.
+    /// Begin of the first one, in bytes.
     first: Option<usize>,
 }
 

@@ -1,17 +1,17 @@
-//! What came of a mission.
+//! Results of a mission.
 
 use cotama_axes::Wrong;
 
 /// A mission that was run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Run {
-    /// How it ended.
+    /// End of the mission.
     pub outcome: Outcome,
     /// When it ended, ms after the start.
     pub t_ms: i64,
     /// The place on the path at which it ended, mm.
     pub x_mm: i64,
-    /// What was used, by indicator; zero where values do not add up.
+    /// Sums that were used, by indicator; zero where values do not add up.
     pub used: Vec<i64>,
     /// The plans, the first of the start.
     pub plans: Vec<Planned>,

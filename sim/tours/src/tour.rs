@@ -49,7 +49,7 @@ struct Tour<'m> {
     units: Vec<i64>,
     /// Whether each event has happened.
     happened: Vec<bool>,
-    /// What was used before the leg under way, by indicator.
+    /// Sums that were used before the leg under way, by indicator.
     used: Vec<i64>,
     t_ms: i64,
     x_mm: i64,
@@ -107,7 +107,7 @@ pub fn run(case: &Case) -> Result<Run, NotRun> {
     })
 }
 
-/// What becomes of a leg.
+/// Fate of a leg.
 enum After {
     Done,
     /// The rest was planned again, from where the robot is.

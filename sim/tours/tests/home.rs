@@ -111,7 +111,7 @@ fn mission(stream: &mut Stream) -> String {
     text
 }
 
-/// What a return is to withstand, and a script of no more than that.
+/// Faults that a return is to withstand, and a script of no more than those.
 fn faults(mission: &Mission, stream: &mut Stream) -> (Return, Script) {
     let of = |id: &str| mission.indicator(id).unwrap();
     let laser = mission.hardware.iter().position(|it| it.id == "laser").unwrap();

@@ -75,9 +75,9 @@ pub(crate) enum Term {
     Inducer,
     /// Another indicator.
     Indicator {
-        /// Its unit.
+        /// The unit.
         unit: String,
-        /// Its formula where this one is used.
+        /// The formula where this one is used.
         formula: Formula,
     },
     /// The word names an indicator that cannot be read here, as was said.

@@ -21,7 +21,7 @@ type Written<'n> = [Option<&'n Node>; 2];
 #[derive(Clone, Debug)]
 enum State {
     Unread,
-    /// Its parts are being read.
+    /// A block whose parts are being read.
     Begun,
     /// None where there is none, or none that can be used.
     Read(Option<Formula>),

@@ -249,7 +249,7 @@ impl File<'_> {
     }
 }
 
-/// What the table of one variable is made of.
+/// Parts of the table of one variable.
 struct Tables<'a, 't> {
     lexer: &'a Lexer<'t>,
     nodes: &'a [Node],

@@ -18,7 +18,7 @@ pub enum Memory {
 pub struct Seen {
     /// The way that was taken.
     pub way: usize,
-    /// What was seen: a number of [`Model::observations`].
+    /// Observation: a number of [`Model::observations`].
     pub observation: usize,
 }
 

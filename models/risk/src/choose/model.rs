@@ -15,11 +15,11 @@ pub struct Names {
     pub choice: String,
     /// The variable that it only believes something about.
     pub hidden: String,
-    /// What is known before: variables and their states.
+    /// Evidence before the choice: variables and their states.
     pub given: Vec<(String, String)>,
     /// The variable that says how a trial ended, its state of success and that of failure.
     pub outcome: (String, String, String),
-    /// What is seen after a failed trial.
+    /// Observation after a failed trial.
     pub observed: Vec<String>,
     /// The variable of the cost of a trial.
     pub cost: String,
@@ -125,7 +125,7 @@ impl Model {
         self.trials
     }
 
-    /// How many ways there are.
+    /// Number of ways.
     pub fn ways(&self) -> usize {
         self.ways.len()
     }
@@ -140,7 +140,7 @@ impl Model {
         self.ways.iter().position(|it| it == name)
     }
 
-    /// How many hidden states there are.
+    /// Number of hidden states.
     pub fn hidden(&self) -> usize {
         self.hidden.len()
     }
@@ -150,7 +150,7 @@ impl Model {
         &self.hidden
     }
 
-    /// What is believed at first: the network's own distribution of the hidden variable.
+    /// Belief at first: the network's own distribution of the hidden variable.
     pub fn prior(&self) -> &[f64] {
         &self.prior
     }

@@ -11,7 +11,7 @@ use cotama_streams::Streams;
 pub struct Chain {
     /// The best graph seen; its topological order is the order that the thesis gives to K2.
     pub best: Dag,
-    /// Its score.
+    /// The score.
     pub score: f64,
     /// Steps that were accepted.
     pub accepted: u64,

@@ -32,16 +32,16 @@ const MOST: usize = 26;
 pub enum TooMuch {
     /// There are more variables than the limit.
     Variables {
-        /// How many there are.
+        /// Number that there are.
         are: usize,
-        /// How many may be.
+        /// Number that may be.
         limit: usize,
     },
-    /// It would take more memory than the limit.
+    /// More memory than the limit would be taken.
     Bytes {
-        /// How many it would take.
+        /// Bytes that would be taken.
         are: u64,
-        /// How many it may take.
+        /// Bytes that may be taken.
         limit: u64,
     },
     /// The states of a row, and the number of rows, take more than 63 bits together.
@@ -73,7 +73,7 @@ pub struct Exact {
     /// with the fewest arcs; of its class the [canonical](Dag::canonical) one, if that meets the
     /// constraints too.
     pub dag: Dag,
-    /// Its score.
+    /// The score.
     pub score: f64,
     /// Bytes that the search took at most.
     pub bytes: u64,
@@ -82,7 +82,7 @@ pub struct Exact {
 /// Each arc costs so much more, so that of equal scores the fewest arcs win.
 const ARC: f64 = 1.0 / (1_u64 << 34) as f64;
 
-/// How many bytes the search takes at most for this data.
+/// Returns the bytes that the search takes at most for this data.
 pub fn memory(data: &Data, score: Score) -> u64 {
     let count = data.variables().len().min(60) as u32;
     let subsets = 1_u64 << count;

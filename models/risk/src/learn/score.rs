@@ -47,7 +47,7 @@ impl<'d> Families<'d> {
         self.score
     }
 
-    /// How many families were scored.
+    /// Number of families that were scored.
     pub fn scored(&self) -> usize {
         self.known.len()
     }

@@ -32,7 +32,7 @@ fn groups(data: &Data) -> Vec<(usize, usize)> {
     groups
 }
 
-/// How many tables of `f` there are: for `BDeu` one for each product of states.
+/// Returns the number of tables of `f`: for `BDeu` one for each product of states.
 pub(super) fn tables(data: &Data, score: Score) -> usize {
     match score {
         Score::Bic => 1,

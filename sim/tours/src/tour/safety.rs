@@ -28,7 +28,7 @@ impl Tour<'_> {
         Some(self.go_safely())
     }
 
-    /// What events may still cost of what was stated.
+    /// Returns the costs of events that were stated and may still come.
     fn reserve(&self, safe: &Safe, indicator: usize) -> i64 {
         let events = self.course.script.events.iter().zip(&self.happened).filter(|it| *it.1);
         let cost = events.filter_map(|(it, _)| match &it.what {
