@@ -16,6 +16,7 @@ pub(crate) mod new;
 pub(crate) mod risk;
 pub(crate) mod supervised;
 pub(crate) mod team;
+pub(crate) mod ways;
 
 #[cfg(test)]
 use schemars::JsonSchema;

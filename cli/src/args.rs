@@ -17,6 +17,7 @@ mod recording;
 mod risk;
 mod schema;
 mod team;
+mod ways;
 
 pub(crate) use assign::AssignArgs;
 pub(crate) use campaign::{CampaignArgs, PolicyName};
@@ -36,11 +37,12 @@ pub(crate) use new::{NewArgs, NewKind};
 pub(crate) use recording::RecordingArgs;
 pub(crate) use risk::{
     ChoiceRuleName, ChooseArgs, CoherenceArgs, DiscretiseArgs, FixedArgs, InferArgs, LearnArgs,
-    Level, MemoryName, MethodName, RiskArgs, RiskCommand, RuleName, SampleArgs, ScoreName,
-    SeparatedArgs,
+    Level, MemoryName, MethodName, ObserveArgs, RiskArgs, RiskCommand, RuleName, SampleArgs,
+    ScoreName, SeparatedArgs,
 };
 pub(crate) use schema::{SchemaArgs, SchemaName};
 pub(crate) use team::TeamArgs;
+pub(crate) use ways::WaysArgs;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -126,13 +128,16 @@ Examples:
     /// hardware fails, the rest of the mission is planned anew: plan 0 is the first one, plan 1
     /// that of the first replan. A mission that names its robot is driven by supervisors (tables
     /// that react to events), who find, judge and answer each failure, and ask the operator. The
-    /// scenarios `fleet` and `service`, and files of teams, are such robots that bid for tasks.
+    /// scenarios `fleet` and `service`, and files of teams, are such robots that bid for tasks. The
+    /// scenario `two-ways` is an experiment: a robot learns of two ways among moving discs how likely
+    /// a trial fails, and policies choose by the mean or a quantile of the cost.
     #[command(after_long_help = "\
 Examples:
   $ cotama run patrol
   $ cotama run delivery
   $ cotama run service
   $ cotama run fleet --robots 12 --tasks 40 --loss 10
+  $ cotama run two-ways --policy mean --policy 0.75 --runs 2
   $ cotama run patrol --faults none --report quiet-patrol
   $ cotama run patrol --lost laser:1 --allocator exact --json
   $ cotama run patrol --trace patrol.jsonl && cotama replay patrol.jsonl

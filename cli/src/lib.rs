@@ -54,6 +54,7 @@ mod statespace;
 mod subject;
 mod team;
 mod verify;
+mod ways;
 mod words;
 
 use answers::error::ErrorAnswer;

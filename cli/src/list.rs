@@ -8,6 +8,7 @@ use crate::output::Screen;
 use crate::render::described;
 use crate::render::style::{HEADING, NAME};
 use crate::team::Team;
+use crate::ways;
 use cotama_models::missions::embedded;
 use cotama_models::robots;
 use std::fmt::Write;
@@ -31,7 +32,8 @@ pub(crate) fn list(args: &ListArgs, screen: &Screen) -> Result<Exit, Failure> {
     let scenarios = Team::ALL
         .iter()
         .map(|it| Listed { name: it.0.name().to_owned(), description: it.1.to_owned() });
-    let scenarios = scenarios.collect();
+    let ways = Listed { name: ways::NAME_OF_ALL.to_owned(), description: ways::ABOUT.to_owned() };
+    let scenarios = scenarios.chain([ways]).collect();
     let maps = cotama_floor::embedded::ALL.iter().map(|it| Listed {
         name: it.name.trim_end_matches(".toml").to_owned(),
         description: it.description.to_owned(),

@@ -2,6 +2,7 @@
 
 mod choose;
 mod learn;
+mod observe;
 
 use crate::answers::risk::{
     CoherenceAnswer, CoherentRow, CutRow, DiscretiseAnswer, InferAnswer, SeparatedAnswer,
@@ -39,6 +40,7 @@ pub(crate) fn risk(args: &RiskArgs, screen: &Screen) -> Result<Exit, Failure> {
         RiskCommand::Choose(args) => choose::choose(args, screen),
         RiskCommand::Table(args) => table(args, screen),
         RiskCommand::Sample(args) => sample(args, screen),
+        RiskCommand::Observe(args) => observe::observe(args),
     }
 }
 

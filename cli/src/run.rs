@@ -15,6 +15,7 @@ use crate::recording;
 use crate::render;
 use crate::render::numbers::count;
 use crate::team::Chosen;
+use crate::ways;
 use crate::words;
 use cotama_campaign::subject::Policy;
 use cotama_core::units::{Millimetres, Millis};
@@ -39,6 +40,10 @@ pub(crate) use team::{replay as replay_team, replay_faults};
 
 /// Plans a mission, runs it and reports.
 pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
+    if args.mission.mission == ways::NAME_OF_ALL {
+        return ways::run(args, screen);
+    }
+    ways::none_given(args)?;
     if let Some(path) = &args.trace {
         output::place(path)?;
     }

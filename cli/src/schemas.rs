@@ -67,6 +67,7 @@ mod tests {
         ChooseAnswer, CoherenceAnswer, DiscretiseAnswer, InferAnswer, LearnAnswer, SeparatedAnswer,
     };
     use crate::answers::team::TeamAnswer;
+    use crate::answers::ways::WaysAnswer;
     use crate::answers::{AllocateAnswer, ListAnswer, PlanAnswer, ReplayAnswer, RunAnswer};
     use cotama_verification::conform::LINE_SCHEMA;
     use schemars::generate::SchemaSettings;
@@ -102,6 +103,7 @@ mod tests {
             ("run", of::<RunAnswer>()),
             ("run-axes", of::<AxesRunAnswer>()),
             ("run-team", of::<TeamAnswer>()),
+            ("run-two-ways", of::<WaysAnswer>()),
             ("allocate", of::<AllocateAnswer>()),
             ("assign", of::<AssignAnswer>()),
             ("replay", of::<ReplayAnswer>()),

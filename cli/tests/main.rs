@@ -56,3 +56,4 @@ mod special;
 mod statespace;
 mod team;
 mod texts;
+mod ways;

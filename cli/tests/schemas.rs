@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
 
-const COMMANDS: [&str; 28] = [
+const COMMANDS: [&str; 29] = [
     "list",
     "plan",
     "plan-axes",
@@ -28,6 +28,7 @@ const COMMANDS: [&str; 28] = [
     "fmeca",
     "measure",
     "campaign",
+    "run-two-ways",
     "risk-learn",
     "risk-infer",
     "risk-coherence",

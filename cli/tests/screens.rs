@@ -46,6 +46,7 @@ fn no_line_is_wider_than_the_window_where_tables_can_be_wrapped() {
             "run delivery --no-report",
             "run service --no-report",
             "run fleet --no-report --robots 8 --tasks 20",
+            "run two-ways --policy mean",
             "run fleet --robots 4 --tasks 4 --seeds 2",
             "campaign patrol --runs 40 --require completed --shrink 2",
             "campaign patrol --compare --runs 40",

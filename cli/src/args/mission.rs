@@ -1,7 +1,7 @@
 //! The command line of the commands about missions and plans.
 
 use super::number::{duration, energy, whole};
-use super::{Json, MissionArg, RecordingArgs, TeamArgs};
+use super::{Json, MissionArg, RecordingArgs, TeamArgs, WaysArgs};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -116,6 +116,29 @@ pub(crate) struct RunArgs {
     pub(crate) json: Json,
     #[command(flatten)]
     pub(crate) team: TeamArgs,
+    #[command(flatten)]
+    pub(crate) ways: WaysArgs,
+}
+
+impl RunArgs {
+    /// The first option given that only missions understand; the seed and files of the run aside.
+    pub(crate) fn first_of_missions(&self) -> Option<&'static str> {
+        let given = [
+            ("--objective", self.objective.is_some()),
+            ("--faults FILE", !["none", "script"].contains(&self.faults.as_str())),
+            ("--monitor-period", self.monitor_period.is_some()),
+            ("--upward", self.upward),
+            ("--fidelity", self.fidelity != Fidelity::Line),
+            ("--measured", self.measured.is_some()),
+            ("--operator", self.operator != OperatorName::Script),
+            ("--people", self.people > 0),
+            ("--report", self.report.is_some()),
+            ("--trace", self.trace.is_some()),
+            ("--steps", self.planning.steps != STEPS),
+        ];
+        let given = given.into_iter().find(|it| it.1).map(|it| it.0);
+        self.planning.first().or(given)
+    }
 }
 
 #[derive(Args, Debug)]

@@ -3,6 +3,7 @@
 use super::Json;
 use super::number::whole;
 use clap::{Args, Subcommand, ValueEnum};
+use cotama_indicators::{MAX_PEOPLE, MAX_S};
 use std::path::PathBuf;
 
 pub(crate) const RISK_EXAMPLES: &str = "\
@@ -93,6 +94,18 @@ Examples:
   $ cotama risk sample asia --rows 3
   $ cotama risk sample two-ways --rows 2400 --seed 13 > runs.csv")]
     Sample(SampleArgs),
+    /// Drives a robot over a floor among people, and prints its indicators as CSV, 2 a second
+    ///
+    /// The robot localises itself, maps what it sees, plans between the places of the floor and
+    /// avoids people. The indicators are those of table 4.1 of the thesis: uncertainty of map and
+    /// pose, information of the map; length, waypoints and angles of the path; speed and heading.
+    #[command(after_long_help = "\
+Examples:
+  $ cotama risk observe sidewalk --seconds 20 | head -3
+  $ cotama risk observe plaza --seconds 60 --people 24 > runs.csv
+  $ cotama risk discretise runs.csv --rule frequency --out steps.csv
+  $ cotama risk learn steps.csv --out plaza.bif && cotama risk coherence plaza.bif")]
+    Observe(ObserveArgs),
 }
 
 #[derive(Args, Debug)]
@@ -315,6 +328,21 @@ pub(crate) struct SampleArgs {
     #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = whole(1, 1_000_000))]
     pub(crate) rows: u64,
     /// The seed
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole(0, u64::MAX))]
+    pub(crate) seed: u64,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ObserveArgs {
+    /// The floor `sidewalk` or `plaza`, another one of the program, or the path of a drawing in TOML
+    pub(crate) floor: String,
+    /// How long the robot drives, in seconds
+    #[arg(long, value_name = "S", default_value_t = 600, value_parser = whole(1, MAX_S))]
+    pub(crate) seconds: u64,
+    /// How many people walk between the places
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = whole(0, MAX_PEOPLE as u64))]
+    pub(crate) people: u64,
+    /// The seed of people, noise and goals
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole(0, u64::MAX))]
     pub(crate) seed: u64,
 }

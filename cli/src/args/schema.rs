@@ -22,6 +22,8 @@ pub(crate) enum SchemaName {
     RunAxes,
     /// The answer of `run` for a team
     RunTeam,
+    /// The answer of `run two-ways`
+    RunTwoWays,
     Allocate,
     Assign,
     Replay,

@@ -5,7 +5,7 @@ use crate::answers::axes::TotalRow;
 use crate::answers::axes_run::{
     AxesOutcome, AxesPlanRow, AxesRunAnswer, ChoiceRow, MarginRow, MomentRow,
 };
-use crate::args::{Fidelity, OperatorName, RunArgs, STEPS};
+use crate::args::RunArgs;
 use crate::exit::{Exit, Failure};
 use crate::output::Screen;
 use crate::render;
@@ -52,23 +52,9 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
 
 /// Refuses options of other missions.
 fn refuse_others(args: &RunArgs) -> Result<(), Failure> {
-    let given = [
-        ("--objective", args.objective.is_some()),
-        ("--seed", args.seed.is_some()),
-        ("--faults FILE", !["none", "script"].contains(&args.faults.as_str())),
-        ("--monitor-period", args.monitor_period.is_some()),
-        ("--upward", args.upward),
-        ("--fidelity", args.fidelity != Fidelity::Line),
-        ("--measured", args.measured.is_some()),
-        ("--operator", args.operator != OperatorName::Script),
-        ("--people", args.people > 0),
-        ("--report", args.report.is_some()),
-        ("--trace", args.trace.is_some()),
-        ("--steps", args.planning.steps != STEPS),
-    ];
-    let given = given.into_iter().find(|it| it.1).map(|it| it.0);
+    let seed = args.seed.map(|_| "--seed");
     let first = args.planning.first().or(args.recording.first()).or(args.team.first());
-    match first.or(given) {
+    match first.or(args.first_of_missions()).or(seed) {
         None => Ok(()),
         Some(option) => {
             let message = format!("{option}: a mission with axes is run as its file says");

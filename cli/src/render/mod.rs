@@ -29,6 +29,7 @@ pub(crate) mod supervised;
 pub(crate) mod table;
 pub(crate) mod team;
 pub(crate) mod verify;
+pub(crate) mod ways;
 
 /// The command that suggests itself, if one does that can be typed as it is shown.
 fn next(command: Option<String>) -> String {
