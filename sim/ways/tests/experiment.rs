@@ -100,30 +100,34 @@ fn trials_add_up_in_the_network_and_as_csv() {
     assert!(csv.starts_with("ratio,way,status,path_length_m,run_time_s\nr5_1,short,"), "{csv}");
 }
 
-/// The whole experiment at the medium speed, and what of it the claims name.
+/// The whole experiment, and what of it the claims name.
 #[test]
-#[ignore = "15 runs of 40 maps for five policies take about a minute"]
-fn quantiles_reach_their_reliability_and_inference_beats_chance() {
-    let mut world = World::new(1, ObjectSpeed::Medium);
-    let (learned, _) = train(&mut world).unwrap();
-    let mut results = |policy, rules| {
-        let mut runs = Vec::new();
-        for at in 0..15 {
-            let mut own = learned.clone();
-            let series = Series::Run(at);
-            runs.push(run(&mut world, series, policy, rules, &mut own, false).unwrap());
+#[ignore = "15 runs of 40 maps for ten policies at three speeds take about a minute"]
+fn quantiles_of_the_total_reach_their_reliability_and_those_of_trials_not_at_every_speed() {
+    for speed in ObjectSpeed::ALL {
+        let mut world = World::new(1, speed);
+        let (learned, _) = train(&mut world).unwrap();
+        let mut results = |policy, rules| {
+            let one = |at| {
+                let mut own = learned.clone();
+                run(&mut world, Series::Run(at), policy, rules, &mut own, false).unwrap()
+            };
+            Results::new(policy, &(0..15).map(one).collect::<Vec<_>>())
+        };
+        let all = Policy::COMPARED.map(|it| results(it, Rules::default()));
+        let [random, defensive, mean, half, high] = &all;
+        let [half, high] = [half, high].map(|it| it.reliability.unwrap());
+        if speed == ObjectSpeed::Fast {
+            assert!(half.high < 0.5 && high.high < 0.5, "{half:?} {high:?}");
+        } else {
+            assert!(half.low > 0.5 && high.low > 0.75, "{half:?} {high:?}");
         }
-        Results::new(policy, &runs)
-    };
-    let all = Policy::COMPARED.map(|it| results(it, Rules::default()));
-    let [random, defensive, mean, half, high] = &all;
-    assert!(half.reliability.unwrap().low > 0.5 && high.reliability.unwrap().low > 0.75);
-    assert!(mean.reward.value > defensive.reward.value);
-    assert!(defensive.reward.value > random.reward.value);
-    assert!(mean.conditions[0].switched.estimate > 0.88);
-    for choice in [ChoiceRule::Exact, ChoiceRule::Total] {
-        let rules = Rules { choice, memory: Memory::Product };
-        let high = results(Policy::Inference(Measure::Quantile(0.75)), rules);
-        assert!(high.reliability.unwrap().estimate >= 0.75, "{choice:?}");
+        assert!(mean.reward.value > defensive.reward.value);
+        assert!(defensive.reward.value > random.reward.value);
+        let rules = Rules { choice: ChoiceRule::Total, memory: Memory::Product };
+        for level in [0.5, 0.75] {
+            let total = results(Policy::Inference(Measure::Quantile(level)), rules);
+            assert!(total.reliability.unwrap().low > level, "{total:?}");
+        }
     }
 }
