@@ -17,6 +17,7 @@
 //! | [`exact`] | the best plan, proven; anytime, with a bound |
 //! | [`front`] | all plans that no other plan beats |
 //! | [`monitor`] | margins on line, and when to ask for a new plan |
+//! | [`hold`] | a reserve for what remains, as past runs have shown it |
 //! | [`mod@net`] | supervisors as typed Petri nets, checked while compiling |
 //! | [`mod@system`] | several nets that work together; a net alone is a system of one |
 //! | [`player`] | plays a net or a system: events and time in, what fired out; snapshots |
@@ -38,7 +39,7 @@
 #![no_std]
 
 #[doc(inline)]
-pub use cotama_allocation::{allocation, exact, front, hardware, monitor, panorama, problem};
+pub use cotama_allocation::{allocation, exact, front, hardware, hold, monitor, panorama, problem};
 #[doc(inline)]
 pub use cotama_assignment as team;
 #[doc(inline)]

@@ -13,6 +13,8 @@
 //! requirements; [`level`] is what they need at work, from flags to requests. `fmeca` (feature
 //! `std`) reads an analysis of failures from a file, and says how critical each row is.
 //!
+//! `margins` (feature `std`) learns from past runs how much to hold back for what remains.
+//!
 //! [`team`] is what robots can do together: capabilities, tasks, bids, errors.
 //!
 //! Without the feature `std` only [`level`], [`team`], the tables of missions
@@ -40,6 +42,8 @@ pub mod fmeca;
 #[cfg(feature = "std")]
 mod json;
 pub mod level;
+#[cfg(feature = "std")]
+pub mod margins;
 pub mod missions;
 pub mod nets;
 #[cfg(feature = "std")]

@@ -10,6 +10,7 @@
 //! | [`exact`] | the best plan, proven; anytime, with a bound |
 //! | [`front`] | all plans that no other plan beats |
 //! | [`monitor`] | margins on line, and when to ask for a new plan |
+//! | [`hold`] | a reserve for what remains, as past runs have shown it |
 #![no_std]
 #![cfg_attr(any(test, kani), allow(clippy::pedantic))]
 
@@ -22,6 +23,7 @@ pub mod allocation;
 pub mod exact;
 pub mod front;
 pub mod hardware;
+pub mod hold;
 pub mod monitor;
 mod order;
 pub mod panorama;
