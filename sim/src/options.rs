@@ -2,6 +2,7 @@
 
 use cotama_core::monitor::Upward;
 use cotama_core::units::Millis;
+use cotama_models::margins::Calibration;
 use cotama_models::missions::faults::{FIDELITIES, Faults};
 use cotama_models::missions::{Definition, PlannedFor};
 use cotama_models::robots::Measurement;
@@ -43,6 +44,8 @@ pub struct Options {
     /// How failures of the robot are found: as they were measured, in place of the latencies that
     /// its file assumes. By signals nothing is told, and this is not looked at.
     pub measured: Option<Arc<Measurement>>,
+    /// How much is held back for what remains; nothing, as in the paper, if none.
+    pub margins: Option<Arc<Calibration>>,
 }
 
 /// How closely a robot is modelled. Supervisors, plans and faults are the same.

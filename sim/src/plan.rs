@@ -14,9 +14,12 @@ use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis,
 use cotama_models::missions::tables::{Alternative, ENERGY, Rest};
 use cotama_models::missions::{Mission, Remaining};
 
+mod held;
 mod plannable;
+mod spending;
 
 pub(crate) use plannable::Plannable;
+use spending::Spending;
 
 /// Millimetres in units of position, which are nm: a speed in mm/s times a time in µs.
 pub(crate) const NM_PER_MM: u64 = 1_000_000;
@@ -71,6 +74,9 @@ pub(crate) struct Planning<'s> {
     /// The most that what is left can cost, of the plan made last.
     worst: [u64; 2],
     pub(crate) made: Vec<PlanMade>,
+    /// The axes whose reserve no plan could hold, until the next plan.
+    given_up: [bool; 2],
+    spending: Spending,
 }
 
 impl<'s> Planning<'s> {
@@ -92,6 +98,8 @@ impl<'s> Planning<'s> {
             solver: Solver::default(),
             worst: [0; 2],
             made: Vec::new(),
+            given_up: [false; 2],
+            spending: Spending::default(),
         };
         planning.plan(PlanCause::Start, at, available)?;
         Ok(planning)
@@ -107,8 +115,9 @@ impl<'s> Planning<'s> {
         at: &Progress,
         available: Equipment,
     ) -> Result<(), NoPlan> {
-        let proposal = self.propose(at, self.watch(at).left(), available)?;
-        self.adopt(cause, at, proposal);
+        self.reach(at);
+        let (proposal, given_up) = self.held_back(at, available)?;
+        self.adopt(cause, at, proposal, given_up);
         Ok(())
     }
 
@@ -120,7 +129,9 @@ impl<'s> Planning<'s> {
         available: Equipment,
         lost: Option<PlanCause>,
     ) -> Assessed {
+        self.reach(at);
         let (rest, needs) = self.remaining(at);
+        let rest = self.hold(at).of(&rest);
         let there = if lost.is_some() { available } else { needs };
         let trigger = match self.watch(at).assess(&rest, needs, there) {
             Ok(Request::Keep) | Err(_) => return Assessed::Keeps,
@@ -157,13 +168,14 @@ impl<'s> Planning<'s> {
         self.monitor.hardware_returned();
     }
 
-    /// The margins of the plan in force: limits less used less planned (ms, mJ).
+    /// The margins of the plan in force: limits less used less planned (ms, mJ), with what is held
+    /// back for it.
     pub(crate) fn margins(&self, at: &Progress) -> [i64; 2] {
         self.margins_of(at, &self.remaining(at).0)
     }
 
     fn margins_of(&self, at: &Progress, rest: &[u64; 2]) -> [i64; 2] {
-        self.watch(at).margins(rest).unwrap_or([i64::MIN; 2])
+        self.watch(at).margins(&self.hold(at).of(rest)).unwrap_or([i64::MIN; 2])
     }
 
     /// The monitor, told what was used.
@@ -214,26 +226,28 @@ impl<'s> Planning<'s> {
     fn plans_up(&mut self, at: &Progress, available: Equipment) -> bool {
         let (rest, monitor) = (self.remaining(at).0, self.watch(at));
         if self.made.len() as u64 <= MAX_REPLANS
-            && let Ok(proposal) = self.propose(at, monitor.room(), available)
+            && let Ok(proposal) = self.propose(at, self.hold(at).within(&monitor.room()), available)
         {
             let axis = self.of.mission.scenario().order.last().copied().unwrap_or(ENERGY);
             let present = (self.quality(at), rest[axis]);
             // A replan rounds the rest of the way up to whole mm, which alone is no improvement.
             let differs = proposal.choice != self.choice[at.first..];
             if differs && (proposal.planned.quality, proposal.planned.cost[axis]) > present {
-                self.adopt(PlanCause::Room, at, proposal);
+                self.adopt(PlanCause::Room, at, proposal, self.given_up);
                 return true;
             }
         }
         // Kept: the margins of now are what must grow before the next request.
         self.monitor = monitor;
-        let _ = self.monitor.planned(&rest);
+        let _ = self.monitor.planned(&self.hold(at).of(&rest));
         false
     }
 
     /// Goes by a plan from now on.
-    fn adopt(&mut self, cause: PlanCause, at: &Progress, proposal: Proposal) {
+    fn adopt(&mut self, cause: PlanCause, at: &Progress, proposal: Proposal, given_up: [bool; 2]) {
         let before = (!self.made.is_empty()).then(|| self.margins(at));
+        self.given_up = given_up;
+        self.replan(at, &proposal.choice);
         self.choice[at.first..].copy_from_slice(&proposal.choice);
         for activity in (at.first..self.choice.len()).rev() {
             let (mut cost, needs) = self.rest[activity + 1];
@@ -246,7 +260,7 @@ impl<'s> Planning<'s> {
         let cost = add(proposal.planned.cost, at.beside);
         let after = self.margins_of(at, &cost);
         self.monitor = self.watch(at);
-        let _ = self.monitor.planned(&cost);
+        let _ = self.monitor.planned(&self.hold(at).of(&cost));
         self.worst = proposal.worst;
         self.made.push(PlanMade {
             cause,

@@ -1,6 +1,7 @@
 //! The result of a run.
 
 use cotama_core::units::Millis;
+use cotama_models::margins::Spent;
 use cotama_models::missions::infeasible::amount;
 use cotama_models::missions::{AXES, Mission};
 use serde::{Deserialize, Serialize};
@@ -51,6 +52,8 @@ pub struct Run {
     pub events: EventCounts,
     /// How often the margins were checked.
     pub checks: u64,
+    /// What each activity took that it came to, in their order.
+    pub spent: Vec<Spent>,
 }
 
 /// How a mission ended.

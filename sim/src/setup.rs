@@ -78,6 +78,11 @@ pub enum SetupError {
     /// The faults name a zone or a hardware that the mission does not have: they were read for
     /// another one.
     ForeignFaults,
+    /// The margins were learned from runs of another mission.
+    ForeignMargins {
+        /// Name of that mission.
+        mission: String,
+    },
 }
 
 impl std::fmt::Display for SetupError {
@@ -92,6 +97,10 @@ impl std::fmt::Display for SetupError {
             Self::Unwatchable(why) => write!(f, "the limits cannot be watched: {why}"),
             Self::ForeignFaults => {
                 f.write_str("the faults name a zone or hardware that the mission does not have")
+            }
+            Self::ForeignMargins { mission } => {
+                let name = mission.escape_debug();
+                write!(f, "the margins were learned from runs of `{name}`, or of other activities")
             }
         }
     }
@@ -117,6 +126,7 @@ impl<'m> Simulation<'m> {
         if !belongs(&faults, mission) {
             return Err(SetupError::ForeignFaults);
         }
+        belong(options, mission)?;
         let draws = mission.path_length.0.div_ceil(1000).saturating_mul(faults.random.len() as u64);
         if draws > MAX_DRAWS {
             return Err(SetupError::TooManyDraws { draws });
@@ -196,6 +206,20 @@ impl<'m> Simulation<'m> {
         events.sort_by_key(|event| event.x_nm);
         Cow::Owned(events)
     }
+}
+
+/// Looks whether the margins of the options are those of this mission.
+///
+/// # Errors
+/// [`SetupError::ForeignMargins`].
+pub(crate) fn belong(options: &Options, mission: &Mission) -> Result<(), SetupError> {
+    let Some(margins) = &options.margins else { return Ok(()) };
+    let ids = mission.scenario().activities.iter().map(|it| it.id.as_str());
+    if margins.mission == mission.name && ids.eq(margins.from.iter().map(|it| it.activity.as_str()))
+    {
+        return Ok(());
+    }
+    Err(SetupError::ForeignMargins { mission: margins.mission.clone() })
 }
 
 fn belongs(faults: &Faults, mission: &Mission) -> bool {

@@ -404,6 +404,8 @@ impl<'s> World<'s> {
     }
 
     fn result(&mut self, outcome: Outcome, reason: Option<Reason>) -> Run {
+        let at = self.progress();
+        let spent = self.planning.spent(&at);
         let plans = std::mem::take(&mut self.planning.made);
         Run {
             outcome,
@@ -418,6 +420,7 @@ impl<'s> World<'s> {
             x_mm: self.x_nm / NM_PER_MM,
             events: self.counts,
             checks: self.checks,
+            spent,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Observations of one run.
 
+use cotama_models::margins::Spent;
 use cotama_models::robots::{self as row, Body, Motion, Robot, Where};
 use cotama_sim::body::FIRMWARE_WATCHDOG;
 use cotama_sim::fleet::{self, record::Fate};
@@ -65,6 +66,9 @@ pub struct Observed {
     /// The supervisors' transitions that fired, as `ls.ask_Following`, each once, sorted.
     #[serde(skip)]
     pub fired: Vec<String>,
+    /// What each activity of a mission took that the run came to, in their order.
+    #[serde(skip)]
+    pub spent: Vec<Spent>,
     /// The requirement that was broken while the run went on, which ended it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub witness: Option<Witness>,
@@ -112,6 +116,7 @@ impl Observed {
             met: Vec::new(),
             features: Vec::new(),
             fired: Vec::new(),
+            spent: Vec::new(),
             witness: None,
         }
     }
@@ -186,6 +191,7 @@ impl Observed {
             }),
             features,
             fired: run.fired.iter().cloned().collect(),
+            spent: run.spent.clone(),
             witness: run.violated.as_ref().map(|it| Witness {
                 requirement: monitors.get(it.monitor).map_or("", Monitor::text).to_owned(),
                 at_ms: it.at.0,

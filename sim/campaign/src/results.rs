@@ -91,7 +91,7 @@ impl Header {
     pub fn settings(&self) -> Result<Settings, NotSettings> {
         let strategy = StrategyName::ALL.into_iter().find(|it| it.name() == self.strategy);
         let strategy = strategy.ok_or_else(|| NotSettings::Strategy(self.strategy.clone()))?;
-        let rates = [Rates::Even, Rates::Fmeca].into_iter().find(|it| it.name() == self.rates);
+        let rates = Rates::ALL.into_iter().find(|it| it.name() == self.rates);
         let rates = rates.ok_or_else(|| NotSettings::Rates(self.rates.clone()))?;
         if !(1..=MAX_RUNS).contains(&self.runs) {
             return Err(NotSettings::Runs(self.runs));

@@ -126,6 +126,9 @@ pub enum Rates {
     Even,
     /// By the mean times between failures of the FMECA, most of which are assumed: what estimates.
     Fmeca,
+    /// Nothing but what wears on any day: obstacles, wrong odometry, power that differs by zone. Of
+    /// missions without supervisors.
+    Drift,
 }
 
 impl Rates {
@@ -133,16 +136,20 @@ impl Rates {
     /// an hour.
     fn weight(self, mean_mh: Option<u64>) -> u64 {
         match self {
-            Self::Even => 1,
+            Self::Even | Self::Drift => 1,
             Self::Fmeca => mean_mh.map_or(1, |mean| (LONGEST_MTBF_MH / mean.max(1)).max(1)),
         }
     }
 
-    /// Returns the name: `even`, `fmeca`.
+    /// All, in the order of their names in help.
+    pub const ALL: [Self; 3] = [Self::Even, Self::Fmeca, Self::Drift];
+
+    /// Returns the name: `even`, `fmeca`, `drift`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Even => "even",
             Self::Fmeca => "fmeca",
+            Self::Drift => "drift",
         }
     }
 }
@@ -161,6 +168,7 @@ impl Space {
             (1..=it.units).map(move |units| Kind::Hardware { hardware, units })
         });
         let zones = (0..mission.zones.len()).map(|zone| Kind::Power { zone });
+        let hardware = hardware.filter(|_| rates != Rates::Drift);
         let kinds = [Kind::Obstacle, Kind::Odometry].into_iter().chain(hardware).chain(zones);
         Self {
             kinds: kinds.map(|kind| Weighted { kind, weight: 1 }).collect(),

@@ -6,6 +6,7 @@ use crate::plan::{Fault, Plan};
 use crate::requirement::Requirement;
 use crate::space::{Rates, Space};
 use cotama_core::units::{Millimetres, Millis};
+use cotama_models::margins::Calibration;
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Definition, Mission};
 use cotama_models::robots::Measurement;
@@ -123,16 +124,28 @@ impl<'m> Subject<'m> {
     /// # Errors
     /// An [`Unready`] for a mission that cannot be run, or not by this policy.
     pub fn new(mission: &'m Mission, policy: Policy) -> Result<Self, Unready> {
+        Self::holding(mission, policy, None)
+    }
+
+    /// Makes a mission ready whose plans hold something back for what remains.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), and for margins of another mission.
+    pub fn holding(
+        mission: &'m Mission,
+        policy: Policy,
+        margins: Option<Arc<Calibration>>,
+    ) -> Result<Self, Unready> {
         let no_plan = |why: NoPlan| Unready::NoPlan(why, why.text(mission));
         let robot = if mission.robot().is_some() {
-            let options = policy.options(mission, FaultChoice::None);
+            let options = Options { margins, ..policy.options(mission, FaultChoice::None) };
             let driven = Driven::with(mission, &options).map_err(Unready::Undriven)?;
             driven.run(&robots::Script::default()).map_err(no_plan)?;
             Robot::Driven(mission, Box::new(driven), Vec::new())
         } else if !policy.fidelity.is_line() {
             return Err(Unready::Undriven(Undriven::Plain));
         } else {
-            let options = policy.options(mission, FaultChoice::None);
+            let options = Options { margins, ..policy.options(mission, FaultChoice::None) };
             let simulation = Simulation::new(mission, &options).map_err(Unready::Setup)?;
             simulation.run(0).map_err(no_plan)?;
             Robot::Plain(mission, Box::new(simulation))
@@ -360,6 +373,7 @@ fn plain(simulation: &Simulation<'_>, plan: &Plan) -> Observed {
         requests: run.operator_requests,
         replans: run.replans,
         features,
+        spent: run.spent,
         ..Observed::nothing()
     }
 }

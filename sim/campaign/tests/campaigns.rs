@@ -6,6 +6,8 @@
 
 #[path = "campaigns/defects.rs"]
 mod defects;
+#[path = "campaigns/margins.rs"]
+mod margins;
 #[path = "campaigns/measured.rs"]
 mod measured;
 #[path = "campaigns/methods.rs"]

@@ -1,8 +1,10 @@
 //! The part of planning that is the same for every run of a mission.
 
 use crate::options::{Options, Planner};
+use cotama_core::hold::Hold;
 use cotama_core::monitor::{Monitor, MonitorError};
 use cotama_core::problem::Candidate;
+use cotama_models::margins::Promise;
 use cotama_models::missions::tables::Activity;
 use cotama_models::missions::{Mission, Remaining};
 
@@ -22,6 +24,8 @@ pub(crate) struct Plannable<'m> {
     pub(super) monitor: Monitor<2>,
     /// Whether plans are made again.
     pub(super) adapts: bool,
+    /// For each activity what is held back from its start on; empty where nothing is.
+    pub(super) holds: Vec<Hold<2>>,
 }
 
 impl<'m> Plannable<'m> {
@@ -54,6 +58,7 @@ impl<'m> Plannable<'m> {
             activities,
             monitor,
             adapts: !options.rigid,
+            holds: options.margins.iter().flat_map(|it| &it.from).map(Promise::hold).collect(),
         })
     }
 }

@@ -34,8 +34,10 @@ use crate::options::{Fidelity, Options, Planner};
 use crate::plan::{Plannable, Planning, Progress};
 use crate::record::{Recorder, Silent};
 use crate::run::{NoPlan, Outcome, PlanMade};
+use crate::setup::belong;
 use cotama_core::player::{Packed, Program, words};
 use cotama_core::units::{Millimetres, Millis};
+use cotama_models::margins::Spent;
 use cotama_models::missions::Mission;
 use cotama_models::robots::supervisors::{self, OwnedSystem};
 use cotama_models::robots::{Decision, Measurement, OwnedTables, Told, Where};
@@ -78,6 +80,8 @@ pub struct Run {
     pub configurations: Vec<(Millis, Option<usize>)>,
     /// The plans of PANORAMA.
     pub plans: Vec<PlanMade>,
+    /// What each activity took that it came to, in their order.
+    pub spent: Vec<Spent>,
     /// The longest time that the robot moved while a module was broken that its configuration
     /// requires.
     pub exposed: Millis,
@@ -176,6 +180,7 @@ impl<'m> Driven<'m> {
     /// be watched.
     pub fn with(mission: &'m Mission, options: &Options) -> Result<Self, Undriven> {
         let robot = mission.robot().ok_or(Undriven::Plain)?.robot();
+        belong(options, mission).map_err(Undriven::Foreign)?;
         let system = supervisors::of_mission(robot, &mission.steps());
         let packed = system.with(|system| {
             Ok(if words(system).is_some_and(|it| it <= SMALL) {

@@ -25,6 +25,7 @@ impl Run {
             x_mm: self.x.0,
             events: EventCounts::default(),
             checks: 0,
+            spent: self.spent.clone(),
         }
     }
 

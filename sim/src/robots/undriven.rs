@@ -1,5 +1,6 @@
 //! Missions that no supervisors drive.
 
+use crate::setup::SetupError;
 use cotama_core::monitor::MonitorError;
 use cotama_core::system::SystemError;
 use cotama_plane::NoCourse;
@@ -17,6 +18,8 @@ pub enum Undriven {
     NoCourse(NoCourse),
     /// The devices of the robot cannot be made.
     NoSenses(String),
+    /// The options are those of another mission.
+    Foreign(SetupError),
 }
 
 impl std::fmt::Display for Undriven {
@@ -26,6 +29,7 @@ impl std::fmt::Display for Undriven {
             Self::TooLarge(why) => write!(f, "the robot's supervisors cannot be played: {why}"),
             Self::NoCourse(why) => write!(f, "the robot cannot drive in the plane: {why}"),
             Self::NoSenses(why) => write!(f, "the robot cannot sense: {why}"),
+            Self::Foreign(why) => why.fmt(f),
             Self::Unwatchable(why) => write!(f, "the limits cannot be watched: {why}"),
         }
     }

@@ -135,6 +135,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             conduct: Vec::new(),
             configurations: Vec::new(),
             plans: Vec::new(),
+            spent: Vec::new(),
             exposed: Millis(0),
             braked: Millimetres(0),
             moved_when_safe: false,
@@ -240,6 +241,8 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
 
     /// The run, when it is over.
     pub(super) fn into_run(mut self) -> Run {
+        let at = Progress { used: self.run.used, ..self.progress() };
+        self.run.spent = self.planning.spent(&at);
         self.run.plans = self.planning.made;
         self.run.unseen = self.failures.unseen;
         self.run

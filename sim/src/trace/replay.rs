@@ -11,6 +11,7 @@ use crate::run::{NoPlan, Run};
 use crate::setup::{SetupError, Simulation};
 use cotama_core::monitor::Upward;
 use cotama_core::units::Millis;
+use cotama_models::margins::Calibration;
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, MissionErrors};
 use cotama_models::robots::Measurement;
@@ -139,6 +140,7 @@ impl Trace {
                     let robot = mission.robot()?.robot();
                     Some(it.to_toml(robot, "see the file that the run was given"))
                 }),
+                margins: options.margins.as_ref().map(|it| it.to_toml("the file of the run")),
             },
             limits: mission.limits.into(),
             path_length_mm: mission.path_length.0,
@@ -174,6 +176,8 @@ impl Trace {
         let measured = recorded.measured.as_ref().zip(mission.robot());
         let measured = measured.map(|(text, it)| Measurement::parse("measured", text, it.robot()));
         let measured = measured.transpose()?;
+        let margins = recorded.margins.as_ref().map(|it| Calibration::parse("margins", it));
+        let margins = margins.transpose()?;
         Ok(Options {
             seed: recorded.seed,
             faults,
@@ -184,6 +188,7 @@ impl Trace {
             fidelity: recorded.fidelity,
             people: recorded.people,
             measured: measured.map(Arc::new),
+            margins: margins.map(Arc::new),
         })
     }
 }

@@ -30,6 +30,9 @@ pub struct RunOptions {
     /// The text of a measurement by which failures were found; absent where latencies were assumed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured: Option<String>,
+    /// The text of the margins that were held back; absent where none were.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub margins: Option<String>,
 }
 
 /// The faults of a run.

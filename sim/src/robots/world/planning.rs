@@ -65,10 +65,11 @@ impl<P: Program<W, 0, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// Plans again where the margins ask for it: one is below zero, or they leave room for a better
     /// plan. What is lost was planned around when it was told.
     pub(super) fn watch_margins<R: Recorder>(&mut self, recording: &mut Recording<'_, R>) {
+        let (at, left) = (self.progress(), self.units());
+        self.planning.reach(&at);
         if !self.drives() {
             return;
         }
-        let (at, left) = (self.progress(), self.units());
         match self.planning.assess(&at, left, None) {
             Assessed::Keeps => {}
             Assessed::Planned => {
