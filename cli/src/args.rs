@@ -36,9 +36,9 @@ pub(crate) use model::{DrawnAs, ExportArgs, Format, ModelsArgs, SimulateArgs};
 pub(crate) use new::{NewArgs, NewKind};
 pub(crate) use recording::RecordingArgs;
 pub(crate) use risk::{
-    ChoiceRuleName, ChooseArgs, CoherenceArgs, DiscretiseArgs, FixedArgs, InferArgs, LearnArgs,
-    Level, MemoryName, MethodName, ObserveArgs, RiskArgs, RiskCommand, RuleName, SampleArgs,
-    ScoreName, SeparatedArgs,
+    CalibrateArgs, ChoiceRuleName, ChooseArgs, CoherenceArgs, DiscretiseArgs, FixedArgs, InferArgs,
+    LearnArgs, Level, MemoryName, MethodName, ObserveArgs, RiskArgs, RiskCommand, RuleName,
+    SampleArgs, ScoreName, SeparatedArgs,
 };
 pub(crate) use schema::{SchemaArgs, SchemaName};
 pub(crate) use team::TeamArgs;

@@ -6,6 +6,7 @@ use crate::answers::campaign::{
 };
 use crate::args::{CampaignArgs, PolicyName};
 use crate::exit::{Exit, Failure};
+use crate::margins;
 use crate::measurement;
 use crate::mission;
 use crate::output::{self, Screen};
@@ -19,6 +20,7 @@ use cotama_campaign::run::{Campaign, Line, Settings, Shard};
 use cotama_campaign::statistics::{Decision, Interval};
 use cotama_campaign::strategy::BLOCK;
 use cotama_campaign::subject::{Policy, Subject};
+use cotama_models::margins::Calibration;
 use cotama_models::missions::Mission;
 use cotama_models::robots::Measurement;
 use cotama_models::team::scenario::On;
@@ -74,7 +76,8 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
     let settings = asked::settings(args, of, mission.source(), Some(&mission))?;
     let measured = args.measured.as_deref();
     let measured = measurement::of_run(measured, &mission, policy.fidelity)?;
-    let campaign = ready(&mission, policy, settings, measured)?;
+    let margins = margins::of_run(args.margins.as_deref())?;
+    let campaign = ready(&mission, policy, settings, (measured, margins))?;
     let shard = args.shard.unwrap_or(Shard::ALL);
     let texts = (mission.source(), mission.text());
     let usual = args.policy().policy(mission.is_supervised(), STEPS);
@@ -92,6 +95,8 @@ fn of_team(args: &CampaignArgs, team: &Chosen, screen: &Screen) -> Result<Exit, 
         ("--compare", args.compare),
         ("--supervised", args.supervised.is_some()),
         ("--measured", args.measured.is_some()),
+        ("--margins", args.margins.is_some()),
+        ("--activities", args.activities.is_some()),
         ("--policy", args.policy.is_some()),
         ("--objective", args.objective.is_some()),
         ("--allocator", args.allocator.is_some()),
@@ -122,6 +127,7 @@ fn conduct(
     screen: &Screen,
 ) -> Result<Exit, Failure> {
     let shard = header.shard;
+    let mut table = table(args, campaign)?;
     let mut test = Test::of(args, campaign)?;
     let (mut tally, mut store, mut done) = (Tally::default(), None, 0);
     if let Some(folder) = &args.out {
@@ -145,6 +151,9 @@ fn conduct(
                 .filter_map(|it| serde_json::to_string(&it).ok().map(|text| (it, text)))
                 .collect();
             for (line, text) in &texts {
+                if let Some((mission, table)) = &mut table {
+                    table.add(mission, line.run, &line.observed.spent);
+                }
                 tally.add(line, text);
                 test.iter_mut().for_each(|it| it.add(!line.violated.is_empty()));
             }
@@ -161,6 +170,9 @@ fn conduct(
     if let Some(failure) = failure {
         return Err(failure);
     }
+    if let Some(((_, table), path)) = table.as_ref().zip(args.activities.as_deref()) {
+        table.write(path, screen)?;
+    }
     let decision = test.map(|it| decision(&it, args, &tally));
     let answer = finish(args, header, campaign, &tally, decision)?;
     ended(args, &answer, screen)
@@ -170,9 +182,9 @@ fn ready(
     mission: &Mission,
     policy: Policy,
     settings: Settings,
-    measured: Option<Arc<Measurement>>,
+    (measured, margins): (Option<Arc<Measurement>>, Option<Arc<Calibration>>),
 ) -> Result<Campaign<'_>, Failure> {
-    let subject = Subject::new(mission, policy)
+    let subject = Subject::holding(mission, policy, margins)
         .map_err(|error| Failure::of(mission.source(), error.to_string()))?;
     let subject = match measured {
         Some(it) => subject.measured(it),
@@ -181,6 +193,20 @@ fn ready(
     let subject = mission::named(subject, mission.source());
     Campaign::new(subject, settings)
         .map_err(|error| Failure::of(mission.source(), error.to_string()))
+}
+
+/// The table of what activities take, where one is wanted.
+fn table<'m>(
+    args: &CampaignArgs,
+    campaign: &Campaign<'m>,
+) -> Result<Option<(&'m Mission, margins::Table)>, Failure> {
+    let Some(path) = &args.activities else { return Ok(None) };
+    output::place(path)?;
+    if campaign.settings.runs > margins::MOST_RUNS {
+        let message = format!("--activities writes at most {} runs", margins::MOST_RUNS);
+        return Err(Failure::new(message).help("ask for fewer --runs"));
+    }
+    Ok(campaign.subject.mission().map(|it| (it, margins::Table::new())))
 }
 
 fn jobs(args: &CampaignArgs) -> usize {
@@ -214,7 +240,9 @@ fn finish(
     decision: Option<DecisionRow>,
 ) -> Result<CampaignAnswer, Failure> {
     let whole = header.shard.of == 1;
-    let most = args.shrink.unwrap_or(if whole { 20 } else { 0 });
+    // A file of faults says nothing of margins, without which the failure does not come back.
+    let shrinks = whole && args.margins.is_none();
+    let most = args.shrink.unwrap_or(if shrinks { 20 } else { 0 });
     let most = usize::try_from(most).unwrap_or(0);
     let requirements = &campaign.settings.requirements;
     let mut findings = Findings::of(&campaign.subject, requirements, tally, most);

@@ -35,6 +35,8 @@ pub(crate) enum Kind {
     Fmeca,
     /// Measured detections of a robot's failures.
     Measurement,
+    /// Margins learned from runs.
+    Margins,
     Robot,
     Floor,
 }
@@ -69,6 +71,7 @@ impl Kind {
             Some(it) if it.starts_with("panorama-faults/") => return Some(Self::Faults),
             Some(it) if it.starts_with("cotama-fmeca/") => return Some(Self::Fmeca),
             Some(it) if it.starts_with("cotama-measurement/") => return Some(Self::Measurement),
+            Some(it) if it.starts_with("cotama-margins/") => return Some(Self::Margins),
             Some(it) if it.starts_with("cotama-team-faults/") => return Some(Self::TeamFaults),
             Some(it) if it.starts_with("cotama-robot/") => return Some(Self::Robot),
             Some(it) if it.starts_with("cotama-floor/") => return Some(Self::Floor),
@@ -125,6 +128,7 @@ impl Kind {
             Self::Recording => "a recorded run",
             Self::Fmeca => "an FMECA",
             Self::Measurement => "a measurement",
+            Self::Margins => "a file of margins",
             Self::Instance => "an allocation instance",
             Self::Team => "a team with its tasks",
             Self::TeamAtWork => "a team at work",
@@ -150,6 +154,7 @@ impl Kind {
             Self::Recording => "`cotama help conform` shows one",
             Self::Fmeca => "`cotama new fmeca NAME` begins one",
             Self::Measurement => "`cotama fmeca --measure MISSION --output FILE` writes one",
+            Self::Margins => "`cotama risk calibrate RUNS.csv --out FILE` writes one",
             Self::Instance => "`cotama help allocate` shows one",
             Self::Team => "`cotama help assign` shows one",
             Self::TeamAtWork => "`cotama show service` prints one",
@@ -174,6 +179,7 @@ impl Kind {
             Self::Recording => format!("cotama conform MODEL {file}"),
             Self::Fmeca => format!("cotama fmeca {file}"),
             Self::Measurement => format!("cotama fmeca --measured {file}"),
+            Self::Margins => format!("cotama run MISSION --margins {file}"),
             Self::Floor => format!("cotama floor {file}"),
             Self::Instance => format!("cotama allocate {file}"),
             Self::Team => format!("cotama assign {file}"),

@@ -29,6 +29,7 @@ mod junit;
 mod kind;
 mod last_word;
 mod list;
+mod margins;
 mod measurement;
 mod mission;
 mod model;

@@ -1,5 +1,6 @@
 //! `cotama risk`: networks learned from runs, asked, and used to choose.
 
+mod calibrate;
 mod choose;
 mod learn;
 mod observe;
@@ -38,6 +39,7 @@ pub(crate) fn risk(args: &RiskArgs, screen: &Screen) -> Result<Exit, Failure> {
         RiskCommand::Discretise(args) => discretise(args, screen),
         RiskCommand::Separated(args) => separated(args, screen),
         RiskCommand::Choose(args) => choose::choose(args, screen),
+        RiskCommand::Calibrate(args) => calibrate::calibrate(args, screen),
         RiskCommand::Table(args) => table(args, screen),
         RiskCommand::Sample(args) => sample(args, screen),
         RiskCommand::Observe(args) => observe::observe(args),

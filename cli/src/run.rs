@@ -7,6 +7,7 @@ use crate::exit::{Exit, Failure};
 use crate::infeasible;
 use crate::input;
 use crate::kind::{self, Kind};
+use crate::margins;
 use crate::measurement;
 use crate::mission;
 use crate::names;
@@ -45,6 +46,9 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
     }
     ways::none_given(args)?;
     if let Some(path) = &args.trace {
+        output::place(path)?;
+    }
+    if let Some(path) = &args.activities {
         output::place(path)?;
     }
     if let Some(folder) = &args.report {
@@ -108,6 +112,11 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
     let report = args.report.clone().unwrap_or_else(|| default_folder(mission.source()));
     let report = (!args.no_report).then_some(report.as_path());
     write_files(report, args.trace.as_deref(), &trace, None, &mut body)?;
+    if let Some(path) = &args.activities {
+        let mut table = margins::Table::new();
+        table.add(&mission, options.seed, &run.spent);
+        table.write(path, screen)?;
+    }
     body.recordings = recording::write(&args.recording, &trace)?;
     let answer = RunAnswer { schema: "cotama/run/1", run: body };
     if args.json.json {
@@ -248,6 +257,7 @@ fn options(args: &RunArgs, mission: &Mission) -> Result<Options, Failure> {
         fidelity: args.fidelity.into(),
         people: usize::try_from(args.people).unwrap_or(usize::MAX),
         measured: measurement::of_run(args.measured.as_deref(), mission, args.fidelity.into())?,
+        margins: margins::of_run(args.margins.as_deref())?,
     })
 }
 

@@ -64,7 +64,8 @@ mod tests {
     use crate::answers::model::{ModelsAnswer, SimulateAnswer};
     use crate::answers::new::NewAnswer;
     use crate::answers::risk::{
-        ChooseAnswer, CoherenceAnswer, DiscretiseAnswer, InferAnswer, LearnAnswer, SeparatedAnswer,
+        CalibrateAnswer, ChooseAnswer, CoherenceAnswer, DiscretiseAnswer, InferAnswer, LearnAnswer,
+        SeparatedAnswer,
     };
     use crate::answers::team::TeamAnswer;
     use crate::answers::ways::WaysAnswer;
@@ -125,6 +126,7 @@ mod tests {
             ("risk-discretise", of::<DiscretiseAnswer>()),
             ("risk-separated", of::<SeparatedAnswer>()),
             ("risk-choose", of::<ChooseAnswer>()),
+            ("risk-calibrate", of::<CalibrateAnswer>()),
             ("new", of::<NewAnswer>()),
             ("error", of::<ErrorAnswer>()),
         ];

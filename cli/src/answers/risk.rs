@@ -1,5 +1,6 @@
 //! The answers of `cotama risk`.
 
+use super::campaign::Measured;
 #[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -154,4 +155,78 @@ pub(crate) struct ChooseAnswer {
     pub(crate) reward: f64,
     /// By `total` the ways of all trials.
     pub(crate) sequence: Vec<String>,
+}
+
+/// The answer of `cotama risk calibrate`.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct CalibrateAnswer {
+    #[cfg_attr(test, schemars(extend("const" = "cotama/risk-calibrate/1")))]
+    pub(crate) schema: &'static str,
+    /// Name of the mission.
+    pub(crate) mission: String,
+    /// Runs of the table.
+    pub(crate) runs: u64,
+    /// How often a rest is to stay within its bound, at least.
+    pub(crate) coverage: f64,
+    /// What was learned, for each activity; none with `--against`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) promises: Vec<PromiseRow>,
+    /// The file of margins that was held against the runs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) against: Option<String>,
+    /// What became of its promises, for each activity and axis.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) watched: Vec<WatchedRow>,
+    /// Whether the calibration holds, as far as these runs say; none where one was learned. An
+    /// alarm is wrong at most once in 1,000 tables.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) holds: Option<bool>,
+}
+
+/// A bound of all that follows the start of an activity.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct PromiseRow {
+    pub(crate) activity: String,
+    /// Runs that came there.
+    pub(crate) runs: u32,
+    /// Which of their ratios, from 1 for the smallest, is the bound; none where they are too few.
+    pub(crate) rank: Option<u32>,
+    /// The share of further runs within the bound: its mean over all sets of runs, and an interval
+    /// for the share of this one.
+    pub(crate) coverage: Option<Measured>,
+    pub(crate) duration: DriftRow,
+    pub(crate) energy: DriftRow,
+}
+
+/// Ratios of what is used over what is planned; none where too many runs did not come to the end,
+/// or were too few.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct DriftRow {
+    /// The bound of all from this activity on.
+    pub(crate) rest: Option<f64>,
+    /// The bound of this activity by itself.
+    pub(crate) alone: Option<f64>,
+    /// The median of this activity by itself.
+    pub(crate) median: Option<f64>,
+}
+
+/// What became of a bound.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct WatchedRow {
+    pub(crate) activity: String,
+    /// `duration` or `energy`.
+    pub(crate) axis: &'static str,
+    /// Runs that came there.
+    pub(crate) runs: u64,
+    /// Runs that passed the bound, or did not come to the end.
+    pub(crate) missed: u64,
+    /// The share that was promised within the bound, with an interval for that of one set of past
+    /// runs.
+    pub(crate) promised: Measured,
+    /// After how many of these runs it was clear that more pass the bound than promised.
+    pub(crate) broken_after: Option<u64>,
 }

@@ -30,7 +30,8 @@ Examples:
   $ cotama campaign delivery --runs 1000 --shard 2/2 --out part2
   $ cotama campaign merge part1 part2 --out whole
   $ cotama campaign patrol --runs 5000 --require completed --at-most 0.9
-  $ cotama campaign patrol --runs 200 --compare";
+  $ cotama campaign patrol --runs 200 --compare
+  $ cotama campaign patrol --rates drift --policy rigid --activities runs.csv";
 
 #[derive(Args, Debug)]
 pub(crate) struct CampaignArgs {
@@ -51,8 +52,8 @@ pub(crate) struct CampaignArgs {
     /// How plans of faults are drawn [default: uniform]
     #[arg(long, value_name = "HOW", value_parser = strategies())]
     pub(crate) strategy: Option<StrategyName>,
-    /// Which faults are likely: all alike (`even`), or by the FMECA (`fmeca`, under supervisors)
-    /// [default: even]
+    /// Which faults are likely: all alike (`even`), by the FMECA (`fmeca`, under supervisors), or
+    /// obstacles, odometry and power alone (`drift`, without supervisors) [default: even]
     #[arg(long, value_name = "HOW", value_parser = rates())]
     pub(crate) rates: Option<Rates>,
     /// How many faults a run has, as `2` or `1..3` [default: 1..3]
@@ -73,6 +74,13 @@ pub(crate) struct CampaignArgs {
     /// Finds failures as runs by signals have, as in `cotama run`; each run draws
     #[arg(long, value_name = "FILE", conflicts_with_all = ["compare", "out", "shard"])]
     pub(crate) measured: Option<String>,
+    /// Holds back what the rest of the mission may take, as in `cotama run`
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["compare", "out", "shard"])]
+    pub(crate) margins: Option<String>,
+    /// Writes what each activity of each run took, as CSV, for `cotama risk calibrate`; of at most
+    /// 100000 runs
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["compare", "out", "shard"])]
+    pub(crate) activities: Option<PathBuf>,
     /// Objective of the plan, as in `cotama run`: the paper's rule, the most quality, or the least
     /// energy [default: that of the mission file, else quality]
     #[arg(long, value_name = "WHAT", conflicts_with = "compare")]
@@ -198,9 +206,10 @@ fn strategies() -> impl TypedValueParser<Value = StrategyName> {
 }
 
 fn rates() -> impl TypedValueParser<Value = Rates> {
-    let names = [Rates::Even, Rates::Fmeca].map(Rates::name);
-    PossibleValuesParser::new(names)
-        .map(|name| if name == Rates::Fmeca.name() { Rates::Fmeca } else { Rates::Even })
+    PossibleValuesParser::new(Rates::ALL.map(Rates::name)).map(|name| {
+        let found = Rates::ALL.into_iter().find(|it| it.name() == name);
+        found.unwrap_or(Rates::Even)
+    })
 }
 
 fn requirement(text: &str) -> Result<Requirement, String> {

@@ -94,6 +94,13 @@ pub(crate) struct RunArgs {
     /// a robot that comes measured, `p3dx-delivery`; the seed draws [default: latencies as assumed]
     #[arg(long, value_name = "FILE")]
     pub(crate) measured: Option<String>,
+    /// Holds back what the rest of the mission may take: a file of `cotama risk calibrate`; the
+    /// mission is planned again when what is left is less [default: nothing beside the plan]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) margins: Option<String>,
+    /// Writes what each activity took, as CSV, for `cotama risk calibrate`
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) activities: Option<PathBuf>,
     /// Who answers where supervisors ask the operator: he of the script, or you
     #[arg(long, value_enum, value_name = "WHO", default_value_t = OperatorName::Script)]
     pub(crate) operator: OperatorName,
@@ -130,6 +137,8 @@ impl RunArgs {
             ("--upward", self.upward),
             ("--fidelity", self.fidelity != Fidelity::Line),
             ("--measured", self.measured.is_some()),
+            ("--margins", self.margins.is_some()),
+            ("--activities", self.activities.is_some()),
             ("--operator", self.operator != OperatorName::Script),
             ("--people", self.people > 0),
             ("--report", self.report.is_some()),

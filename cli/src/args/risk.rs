@@ -79,6 +79,27 @@ Examples:
   $ cotama risk choose two-ways --measure 0.75 --known ratio=r3_1 --rule total
   $ cotama risk choose two-ways --failed short/low --failed short/low --json")]
     Choose(ChooseArgs),
+    /// Learns from runs how much to hold back for the rest of a mission
+    ///
+    /// Of n runs the k-th smallest ratio of used over planned, k = ceil((n + 1) coverage), bounds
+    /// that of the next run so often, if it is as exchangeable with them as they are with each
+    /// other; nothing is assumed of how runs drift. With --against the margins of a file are held
+    /// against further runs: how often they were missed, and whether that is still chance.
+    ///
+    /// The table has a row for each activity that a run came to, in their order: `mission`, `run`,
+    /// `activity`, `planned_ms`, `used_ms`, `planned_mj`, `used_mj`, `done` (yes, or no where the
+    /// run ended). A run that did not come to the end passed every bound.
+    #[command(after_long_help = "\
+Exit codes: 0 margins were learned, or hold; 1 the margins of --against no longer hold; 2 bad \
+input; 3 too few runs for a bound.
+
+Examples:
+  $ cotama campaign patrol --rates drift --policy rigid --runs 2000 --seed 1 \
+--require 'time<=999999999' --activities runs.csv
+  $ cotama risk calibrate runs.csv --coverage 0.95 --out margins.toml
+  $ cotama run patrol --margins margins.toml
+  $ cotama risk calibrate runs.csv --against margins.toml")]
+    Calibrate(CalibrateArgs),
     /// Prints a query in fixed point as Rust, for firmware without heap or floats
     ///
     /// The crate `cotama-inference` answers it for any states of the evidence, each time with a
@@ -134,6 +155,30 @@ pub(crate) enum MethodName {
     K2,
     /// A random walk over graphs: the best one seen
     Mcmc,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct CalibrateArgs {
+    /// The path of a table of runs in CSV, as `--activities` of `run` and `campaign` writes it, or
+    /// `-`
+    pub(crate) runs: String,
+    /// How often the rest of a mission is to stay within its bound, at least
+    #[arg(long, value_name = "SHARE", default_value_t = 0.95, value_parser = coverage)]
+    #[arg(conflicts_with = "against")]
+    pub(crate) coverage: f64,
+    /// Writes the margins, as TOML
+    #[arg(long, value_name = "FILE.toml", conflicts_with = "against")]
+    pub(crate) out: Option<PathBuf>,
+    /// Holds the margins of this file against the runs
+    #[arg(long, value_name = "FILE.toml")]
+    pub(crate) against: Option<String>,
+    #[command(flatten)]
+    pub(crate) json: Json,
+}
+
+fn coverage(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|it: &f64| (0.000_001..=0.999_999).contains(it));
+    number.ok_or_else(|| "a share between 0 and 1, as 0.95, is needed".into())
 }
 
 #[derive(Args, Debug)]

@@ -44,6 +44,7 @@ pub(crate) enum SchemaName {
     RiskDiscretise,
     RiskSeparated,
     RiskChoose,
+    RiskCalibrate,
     New,
     /// A line of a recorded run
     Recording,

@@ -48,6 +48,10 @@ pub(super) fn settings(
         let message = format!("`{unknown}`: the supervisors have no such transition");
         return Err(Failure::new(message).help("cotama simulate delivery lists them"));
     }
+    if args.rates == Some(Rates::Drift) && of != Of::Plain {
+        let message = "--rates drift is for missions without supervisors";
+        return Err(Failure::of(source, message).help("--rates fmeca draws by the FMECA"));
+    }
     if args.rates == Some(Rates::Fmeca) && of == Of::Plain {
         let message = "--rates fmeca is for missions with supervisors: the FMECA is theirs";
         return Err(Failure::of(source, message));

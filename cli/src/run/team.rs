@@ -286,6 +286,8 @@ fn for_missions(args: &RunArgs) -> Result<(), Failure> {
         ("--upward", args.upward),
         ("--fidelity", args.fidelity != Fidelity::Line),
         ("--measured", args.measured.is_some()),
+        ("--margins", args.margins.is_some()),
+        ("--activities", args.activities.is_some()),
         ("--operator", args.operator != OperatorName::Script),
         ("--steps", args.planning.steps != STEPS),
     ];
