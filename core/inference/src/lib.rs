@@ -97,7 +97,7 @@ impl Query<'_> {
     /// Number of states of the query.
     pub fn states(&self) -> usize {
         let last = self.steps.last().map_or(&[][..], |it| it.shape);
-        last.iter().map(|it| usize::from(*it)).product()
+        cells(last)
     }
 
     /// The loss C of one state of the query by products that are cut off, in units of 2⁻⁶⁰.
@@ -146,18 +146,19 @@ impl Query<'_> {
         }
         let last = self.steps.last().ok_or(NoAnswer::Malformed)?;
         let from = last.to as usize;
-        let result = scratch.get(from..from + self.states()).ok_or(NoAnswer::Malformed)?;
+        let end = from.saturating_add(self.states());
+        let result = scratch.get(from..end).ok_or(NoAnswer::Malformed)?;
         let sum = result.iter().fold(0_u64, |all, it| all.saturating_add(*it));
-        let lost = u128::from(self.cut_off()) * (result.len() as u128 + 1);
-        let wrong = lost + 2 * u128::from(self.rounded);
+        let lost = u128::from(self.cut_off()).saturating_mul(result.len() as u128 + 1);
+        let wrong = lost.saturating_add(2 * u128::from(self.rounded));
         if sum == 0 || wrong > u128::from(sum) {
             return Err(NoAnswer::Impossible);
         }
         for (to, cell) in posterior.iter_mut().zip(result) {
-            *to = ((u128::from(*cell) << 30) / u128::from(sum)) as u32;
+            *to = over(u128::from(*cell), sum);
         }
         // Rounded up, and one unit for the division.
-        let error = ((wrong << 30) / u128::from(sum)) as u32 + 2;
+        let error = over(wrong, sum).saturating_add(2);
         Ok(Answer { evidence: sum, error })
     }
 
@@ -166,7 +167,7 @@ impl Query<'_> {
         let rank = step.shape.len();
         let mut digits = [0_u16; MAX_RANK];
         let digits = digits.get_mut(..rank)?;
-        let size = step.shape.iter().map(|it| usize::from(*it)).product();
+        let size = cells(step.shape);
         let to = step.to as usize;
         for cell in 0..size {
             let mut sum = 0_u64;
@@ -182,9 +183,9 @@ impl Query<'_> {
                 }
                 sum = sum.saturating_add(product);
             }
-            *scratch.get_mut(to + cell)? = sum;
+            *scratch.get_mut(to.saturating_add(cell))? = sum;
             for (digit, states) in digits.iter_mut().zip(step.shape).rev() {
-                *digit += 1;
+                *digit = digit.saturating_add(1);
                 if *digit < *states {
                     break;
                 }
@@ -198,15 +199,26 @@ impl Query<'_> {
 impl Operand<'_> {
     /// The place of a cell; none where the evidence has no such number.
     fn place(&self, evidence: &[u8], digits: &[u16], state: u32) -> Option<usize> {
-        let mut at = self.at + self.inner * state;
+        let mut at = self.at.saturating_add(self.inner.saturating_mul(state));
         for (number, far) in self.fixed {
-            at += u32::from(*evidence.get(usize::from(*number))?) * far;
+            let state = u32::from(*evidence.get(usize::from(*number))?);
+            at = at.saturating_add(state.saturating_mul(*far));
         }
         for (digit, far) in digits.iter().zip(self.strides) {
-            at += u32::from(*digit) * far;
+            at = at.saturating_add(u32::from(*digit).saturating_mul(*far));
         }
         Some(at as usize)
     }
+}
+
+/// Number of cells of a shape.
+fn cells(shape: &[u16]) -> usize {
+    shape.iter().fold(1, |all: usize, it| all.saturating_mul(usize::from(*it)))
+}
+
+/// A share of a sum, which is not zero, in units of 2⁻³⁰.
+fn over(part: u128, sum: u64) -> u32 {
+    (part << 30).checked_div(u128::from(sum)).unwrap_or(0) as u32
 }
 
 /// A product, cut off: of a number of units of 2⁻⁶⁰ and one of units of 2⁻ᵇ.

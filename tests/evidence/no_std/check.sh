@@ -53,7 +53,7 @@ image=$(mktemp)
 trap 'rm -f "$image"' EXIT
 echo "entry point        code  tables   RAM   bytes on $target, opt-level s, overflow checks on"
 for entry in cotama_panorama cotama_exact cotama_front cotama_monitor cotama_assign cotama_team \
-    cotama_level; do
+    cotama_level cotama_asia cotama_two_ways; do
     arm-none-eabi-ld --gc-sections -e "$entry" -u "$entry" -o "$image" "$library"
     arm-none-eabi-size -A "$image" | awk -v entry="$entry" '
         $1 ~ /^\.(text|rodata|data|bss)/ { size[$1] += $2 }

@@ -1,5 +1,5 @@
 //! The core as firmware links it: allocators, front and monitor on the tables of the patrol, teams
-//! of eight robots, and the decisional level of the delivery.
+//! of eight robots, the decisional level of the delivery, and queries of two networks.
 //!
 //! This crate has a panic handler, so it does not build when anything below it needs `std`, and no
 //! global allocator, so it does not build when anything below it needs the heap. `check.sh` builds
@@ -11,6 +11,9 @@
 extern crate alloc;
 #[cfg(feature = "canary-std")]
 extern crate std;
+
+mod asia;
+mod two_ways;
 
 use core::panic::PanicInfo;
 use cotama_core::allocation::{Allocator, Answer};
@@ -25,6 +28,7 @@ use cotama_core::team::winners::{
 };
 use cotama_core::team::{Combine, Cost, Costs, Fixed, Plan as TaskPlan, Task, Team, assign};
 use cotama_core::units::{Millimetres, Millis};
+use cotama_inference::Query;
 use cotama_models::level::{Drive, Perceived, Told};
 use cotama_models::missions::tables::patrol::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
 use cotama_models::missions::tables::{EMPTY, Rest, buffer_sizes, remaining};
@@ -186,6 +190,24 @@ pub extern "C" fn cotama_level(raised: u64, works: u64, periods: u64) -> u64 {
         speed = decider.requests(now).speed.0;
     }
     speed
+}
+
+/// The probability of lung cancer, in units of 2⁻³⁰, given two findings.
+#[unsafe(no_mangle)]
+pub extern "C" fn cotama_asia(evidence: &[u8; 2]) -> u32 {
+    answer::<{ asia::QUERY.scratch }, 2>(&asia::QUERY, evidence)
+}
+
+/// The probability of the first ratio of objects on two ways, in units of 2⁻³⁰, given a trial.
+#[unsafe(no_mangle)]
+pub extern "C" fn cotama_two_ways(evidence: &[u8; 4]) -> u32 {
+    answer::<{ two_ways::QUERY.scratch }, 5>(&two_ways::QUERY, evidence)
+}
+
+fn answer<const CELLS: usize, const STATES: usize>(query: &Query<'_>, evidence: &[u8]) -> u32 {
+    let (mut scratch, mut posterior) = ([0; CELLS], [0; STATES]);
+    let found = query.answer(evidence, &mut scratch, &mut posterior);
+    found.map_or(u32::MAX, |_| posterior.first().copied().unwrap_or(u32::MAX))
 }
 
 /// Takes memory from the heap.
