@@ -18,6 +18,7 @@ pub(crate) mod supervised;
 pub(crate) mod team;
 pub(crate) mod ways;
 
+use axes_run::FurtherMargin;
 #[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -413,8 +414,11 @@ pub(crate) struct PlanMade {
     pub(crate) duration_margin_after_ms: i64,
     pub(crate) energy_margin_after_mj: i64,
     pub(crate) steps: u64,
-    /// `panorama` or `exact`.
+    /// `panorama`, `exact` or, within further limits of axes, `axes`.
     pub(crate) allocator: String,
+    /// The margins of further sums that axes limit.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) further: Vec<FurtherMargin>,
 }
 
 /// Something that happened to the robot.

@@ -270,8 +270,9 @@ Examples:
     #[command(after_long_help = "\
 Examples:
   $ cotama show patrol
-  $ cotama show patrol > mine.toml && cotama plan mine.toml")]
-    Show(MissionArg),
+  $ cotama show patrol > mine.toml && cotama plan mine.toml
+  $ cotama show patrol --axes > mine.toml   # limits as constraints on axes")]
+    Show(ShowArgs),
     /// Prints the tables of a mission, or the decisional level of a robot, as Rust for firmware
     #[command(after_long_help = "\
 Examples:
@@ -309,6 +310,16 @@ Examples:
 pub(crate) struct MissionArg {
     /// The name of a mission that comes with the program, the path of a mission file, or `-`
     pub(crate) mission: String,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ShowArgs {
+    #[command(flatten)]
+    pub(crate) mission: MissionArg,
+    /// Writes a mission in the format with axes: its limits become constraints on the sums of
+    /// duration and energy, all else stays
+    #[arg(long)]
+    pub(crate) axes: bool,
 }
 
 #[derive(Args, Debug)]

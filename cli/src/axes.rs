@@ -13,6 +13,7 @@ use crate::exit::{Exit, Failure};
 use crate::file_errors::FileErrors;
 use crate::input;
 use crate::kind::{self, Kind};
+use crate::mission;
 use crate::names::quoted;
 use crate::output::Screen;
 use crate::render;
@@ -21,11 +22,27 @@ use cotama_axes::{
     Activity, Case, Dropped, Infeasible, Lifted, Mission, Plan, Problem, Single, Steps, Stop,
     Table, Wrong, Wrongs, label,
 };
+use cotama_models::missions::{self, embedded};
 
 /// Plans a mission with axes.
 pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
+    planned(args, &File::load(&args.mission.mission)?, screen)
+}
+
+/// Plans a mission on its robot and its floor, whose axes limit further sums.
+pub(crate) fn plan_of(
+    args: &PlanArgs,
+    mission: &missions::Mission,
+    screen: &Screen,
+) -> Result<Exit, Failure> {
+    match File::of(&args.mission.mission, mission) {
+        Some(file) => planned(args, &file, screen),
+        None => Err(Failure::new("the speeds of this mission cannot be derived")),
+    }
+}
+
+fn planned(args: &PlanArgs, file: &File, screen: &Screen) -> Result<Exit, Failure> {
     refuse_others(args)?;
-    let file = File::load(&args.mission.mission)?;
     let case = &file.case;
     let mut steps = Steps::new(args.planning.steps);
     let mut answer = answer(case, &mut steps).map_err(|it| file.wrong(it))?;
@@ -42,6 +59,19 @@ pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
 /// Whether a word of the command line means a mission with axes: by its name, or as a file.
 pub(crate) fn is(name: &str) -> bool {
     cotama_axes::embedded(name).is_some() || kind::is(name, Kind::Axes)
+}
+
+/// Returns the axes of a mission: of one with axes alone, or on its robot and its floor; `None` of
+/// one that has none, or is no mission.
+pub(crate) fn file(name: &str) -> Result<Option<File>, Failure> {
+    if is(name) {
+        return File::load(name).map(Some);
+    }
+    let is_mission = embedded::mission(name).is_some() || kind::is(name, Kind::Mission);
+    if !is_mission {
+        return Ok(None);
+    }
+    Ok(File::of(name, &mission::load(name, None)?))
 }
 
 /// A mission with axes and its text.
@@ -61,6 +91,12 @@ impl File {
         };
         let case = Case::parse(&text).map_err(|it| wrongs(name, &text, it))?;
         Ok(Self { name: name.to_owned(), text, case })
+    }
+
+    /// Returns the axes of a mission on its robot and its floor, if it has some.
+    fn of(name: &str, mission: &missions::Mission) -> Option<Self> {
+        let case = mission.case()?;
+        Some(Self { name: name.to_owned(), text: mission.text().to_owned(), case })
     }
 
     /// Says that arithmetic of a formula does not come out.

@@ -41,8 +41,8 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
                 .help(format!("formats: {}", formats().join(", "))));
         }
     };
-    if axes::is(&args.model.model) {
-        return causes(args, format, screen);
+    if let Some(file) = axes::file(&args.model.model)? {
+        return causes(&file, args, format, screen);
     }
     if args.style.is_some() && !matches!(format, Format::Dot | Format::Svg | Format::Mermaid) {
         return Err(Failure::new(format!("--style is for drawings, and {} is none", name(format)))
@@ -77,7 +77,12 @@ fn put(text: &str, output: Option<&Path>, screen: &Screen) -> Result<(), Failure
 }
 
 /// Writes which inducers act on the indicators of a mission with axes.
-fn causes(args: &ExportArgs, format: Format, screen: &Screen) -> Result<Exit, Failure> {
+fn causes(
+    file: &axes::File,
+    args: &ExportArgs,
+    format: Format,
+    screen: &Screen,
+) -> Result<Exit, Failure> {
     let name = &args.model.model;
     let given = [
         ("--style", args.style.is_some()),
@@ -88,7 +93,7 @@ fn causes(args: &ExportArgs, format: Format, screen: &Screen) -> Result<Exit, Fa
         let message = format!("{option} is for models, and `{name}` is a mission with axes");
         return Err(Failure::new(message).help(format!("leave {option} out")));
     }
-    let causes = Causes::of(&axes::File::load(name)?.case.mission);
+    let causes = Causes::of(&file.case.mission);
     let text = match format {
         Format::Dot => causes.dot(),
         Format::Mermaid => causes.mermaid(),

@@ -35,7 +35,11 @@ pub(crate) fn mission() -> Value {
         "type": "object",
         "if": says("format", &[missions::FORMAT_2]),
         "then": mission_of_robot(),
-        "else": plain_mission(),
+        "else": {
+            "if": says("format", &[missions::FORMAT_3]),
+            "then": mission_with_axes(),
+            "else": plain_mission(),
+        },
     });
     with(with(file, "$schema", DRAFT.into()), "title", "A mission of cotama".into())
 }
@@ -79,6 +83,20 @@ fn mission_of_robot() -> Value {
     let line = both(&line, &absent(&["from", "open", "close", "clearance_mm", "people", "person"]));
     let rule = json!({ "if": { "required": ["floor"] }, "then": on_floor, "else": line });
     with(file, "allOf", json!([rule]))
+}
+
+/// A mission whose limits are constraints on axes; its other keys are those of the other formats,
+/// and numbers of its own.
+fn mission_with_axes() -> Value {
+    let lists = ["axis", "constraint", "tio", "objective", "zone"];
+    let lists = lists.map(|it| (it.to_owned(), json!({ "type": "array" })));
+    let properties: serde_json::Map<_, _> = lists.into_iter().collect();
+    let meaning = "A mission with axes: `cotama help plan`, and the page on axes.";
+    json!({
+        "type": "object", "description": meaning, "properties": properties,
+        "required": ["format", "name", "axis", "objective"],
+        "not": { "required": ["limits"] },
+    })
 }
 
 fn plain_mission() -> Value {

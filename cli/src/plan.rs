@@ -29,6 +29,9 @@ pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
         return Err(Failure::new(message).help("leave --steps out"));
     }
     let mission = mission::load_for(&args.mission.mission, &args.planning, Some(screen))?;
+    if mission.plans_by_wishes() {
+        return axes::plan_of(args, &mission, screen);
+    }
     let answer = answer(args, &mission)?;
     if args.json.json {
         Screen::json(&answer)?;

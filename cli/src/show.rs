@@ -1,6 +1,6 @@
 //! `cotama show`: the file of a mission, a team, a robot or a floor.
 
-use crate::args::MissionArg;
+use crate::args::ShowArgs;
 use crate::exit::{Exit, Failure};
 use crate::mission;
 use crate::output::Screen;
@@ -10,7 +10,16 @@ use cotama_models::robots;
 
 /// Prints the file of a mission, a team, a robot or a floor; what a terminal would obey in its
 /// strings and comments is escaped.
-pub(crate) fn show(args: &MissionArg) -> Result<Exit, Failure> {
+pub(crate) fn show(args: &ShowArgs) -> Result<Exit, Failure> {
+    let (args, with_axes) = (&args.mission, args.axes);
+    if with_axes {
+        let mission = mission::load(&args.mission, None)?;
+        let text = mission.upgraded().map_err(|why| {
+            Failure::new(format!("--axes: {} is not written anew: {why}", mission.source()))
+        })?;
+        Screen::raw(text::toml(&text).to_string().as_bytes())?;
+        return Ok(Exit::Success);
+    }
     let robot = robots::embedded(&args.mission).map(|it| it.text);
     let robot = robot.or_else(|| cotama_axes::embedded(&args.mission).map(|it| it.text));
     let floor = || cotama_floor::embedded::named(&args.mission).map(|it| it.text);

@@ -40,7 +40,7 @@ fn edits_of_the_patrol() {
     let cases: &[(&str, &[(&str, &str)])] = &[
         ("syntax", &[("mass_g = 25000", "mass_g = = 25000"), ("id = \"M1\"", "id = \"M1")]),
         ("duplicate_key", &[("c0 = 4890", "c0 = 4890\nc0 = 4891")]),
-        ("format", &[("panorama-mission/1", "panorama-mission/3")]),
+        ("format", &[("panorama-mission/1", "panorama-mission/9")]),
         ("format_missing", &[("format = \"panorama-mission/1\"", "")]),
         ("objective_of_plans", &[("plan.objective = \"paper\"", "plan.objective = \"qualty\"")]),
         ("objective_of_no_plan", &[("plan.objective = \"paper\"", "plan.goal = \"paper\"")]),

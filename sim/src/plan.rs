@@ -10,15 +10,20 @@ use crate::solver::{Left, Proposal, Solver};
 use crate::trace::{Margins, Plan, ReturnMargin};
 use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{MAX_AMOUNT, Monitor, Request, Trigger, worst};
-use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
+use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::tables::{Alternative, ENERGY, Rest};
 use cotama_models::missions::{Mission, Remaining};
 
+mod further;
 mod held;
+mod pace;
 mod plannable;
+mod slowed;
 mod spending;
 
+use further::Further;
 pub(crate) use plannable::Plannable;
+use slowed::Slowed;
 use spending::Spending;
 
 /// Millimetres in units of position, which are nm: a speed in mm/s times a time in µs.
@@ -40,13 +45,16 @@ pub(crate) struct Progress {
     pub(crate) x_nm: u64,
     /// Amounts used, in ms and mJ.
     pub(crate) used: [u64; 2],
+    /// The configuration that runs, where supervisors take one; else the planned one does.
+    pub(crate) runs: Option<usize>,
 }
 
 impl Progress {
     /// A mission that begins at a place of its path.
     pub(crate) const fn start(x: Millimetres) -> Self {
         let x_nm = x.0.saturating_mul(NM_PER_MM);
-        Self { first: 0, rest: None, cost: None, beside: [0; 2], t_us: 0, x_nm, used: [0; 2] }
+        let (cost, beside, used) = (None, [0; 2], [0; 2]);
+        Self { first: 0, rest: None, cost, beside, t_us: 0, x_nm, used, runs: None }
     }
 }
 
@@ -61,6 +69,13 @@ pub(crate) enum Assessed {
     Fails(PlanCause, Reason),
 }
 
+/// A request for a plan.
+enum Asks {
+    Nothing,
+    Up,
+    Down(PlanCause),
+}
+
 /// The plan of a run, and what is left of the limits.
 #[derive(Clone, Debug)]
 pub(crate) struct Planning<'s> {
@@ -71,6 +86,11 @@ pub(crate) struct Planning<'s> {
     /// For each activity, the planned cost and the needs from it on; one more element for the end.
     rest: Vec<([u64; 2], Equipment)>,
     solver: Solver,
+    /// Alternatives with the speeds that the hardware allows which works now, where some is lost
+    /// and speeds follow from it.
+    slowed: Option<Slowed>,
+    /// Sums beyond duration and energy.
+    further: Further,
     /// The most that what is left can cost, of the plan made last.
     worst: [u64; 2],
     pub(crate) made: Vec<PlanMade>,
@@ -90,12 +110,16 @@ impl<'s> Planning<'s> {
         available: Equipment,
     ) -> Result<Self, NoPlan> {
         let count = of.activities.len();
+        let by_wishes = of.mission.plans_by_wishes();
+        let ends = if by_wishes { of.mission.scenario().ends.len() } else { 0 };
         let mut planning = Self {
             of,
             monitor: of.monitor,
             choice: vec![0; count],
             rest: vec![([0; 2], Equipment::NONE); count + 1],
             solver: Solver::default(),
+            slowed: None,
+            further: Further::new(ends, at),
             worst: [0; 2],
             made: Vec::new(),
             given_up: [false; 2],
@@ -116,6 +140,8 @@ impl<'s> Planning<'s> {
         available: Equipment,
     ) -> Result<(), NoPlan> {
         self.reach(at);
+        self.look(at);
+        self.slow_down(available);
         let (proposal, given_up) = self.held_back(at, available)?;
         self.adopt(cause, at, proposal, given_up);
         Ok(())
@@ -130,29 +156,19 @@ impl<'s> Planning<'s> {
         lost: Option<PlanCause>,
     ) -> Assessed {
         self.reach(at);
-        let (rest, needs) = self.remaining(at);
-        let rest = self.hold(at).of(&rest);
-        let there = if lost.is_some() { available } else { needs };
-        let trigger = match self.watch(at).assess(&rest, needs, there) {
-            Ok(Request::Keep) | Err(_) => return Assessed::Keeps,
-            Ok(_) if at.first == self.choice.len() => return Assessed::Keeps,
-            Ok(Request::Up) if self.plans_up(at, available) => return Assessed::Planned,
-            Ok(Request::Up) => return Assessed::Keeps,
-            Ok(Request::Down(trigger)) => trigger,
-        };
-        let cause = match (trigger, lost) {
-            (Trigger::Margin { axis }, _) => PlanCause::Margin { axis },
-            (Trigger::Hardware, lost) => lost.unwrap_or(PlanCause::Start),
+        self.look(at);
+        let cause = match self.asks(at, available, lost) {
+            Asks::Up if self.plans_up(at, available) => return Assessed::Planned,
+            Asks::Nothing | Asks::Up => return Assessed::Keeps,
+            Asks::Down(cause) => cause,
         };
         if !self.of.adapts {
             // A margin below zero is borne; lost hardware that is needed ends the mission.
-            return match trigger {
-                Trigger::Margin { .. } => Assessed::Keeps,
-                Trigger::Hardware => {
-                    let none = NoPlan::Emptied { activity: at.first };
-                    Assessed::Fails(cause, Reason::NoPlan(none))
-                }
-            };
+            if matches!(cause, PlanCause::Margin { .. } | PlanCause::End { .. }) {
+                return Assessed::Keeps;
+            }
+            let none = NoPlan::Emptied { activity: at.first };
+            return Assessed::Fails(cause, Reason::NoPlan(none));
         }
         if self.made.len() as u64 > MAX_REPLANS {
             return Assessed::Fails(cause, Reason::TooManyReplans);
@@ -160,6 +176,33 @@ impl<'s> Planning<'s> {
         match self.plan(cause, at, available) {
             Ok(()) => Assessed::Planned,
             Err(none) => Assessed::Fails(cause, Reason::NoPlan(none)),
+        }
+    }
+
+    /// Returns what margins and hardware ask for; the ones that the simulator counts come first.
+    fn asks(&mut self, at: &Progress, available: Equipment, lost: Option<PlanCause>) -> Asks {
+        let (rest, needs) = self.remaining(at);
+        let rest = self.hold(at).of(&rest);
+        let there = if lost.is_some() { available } else { needs };
+        let is_too_fast = lost.is_some() && self.is_too_fast(at, available);
+        let asked = self.watch(at).assess(&rest, needs, there);
+        if at.first == self.choice.len() {
+            return Asks::Nothing;
+        }
+        match asked {
+            Ok(Request::Down(Trigger::Margin { axis })) => {
+                return Asks::Down(PlanCause::Margin { axis });
+            }
+            Ok(Request::Down(Trigger::Hardware)) => {
+                return Asks::Down(lost.unwrap_or(PlanCause::Start));
+            }
+            Ok(Request::Keep | Request::Up) | Err(_) => {}
+        }
+        match (lost, self.further_broken(at)) {
+            (Some(lost), _) if is_too_fast => Asks::Down(lost),
+            (_, Some(end)) => Asks::Down(PlanCause::End { end }),
+            _ if asked == Ok(Request::Up) && !self.has_further() => Asks::Up,
+            _ => Asks::Nothing,
         }
     }
 
@@ -206,10 +249,15 @@ impl<'s> Planning<'s> {
         limits: [u64; 2],
         available: Equipment,
     ) -> Result<Proposal, NoPlan> {
+        if self.has_further() {
+            return self.propose_further(at, available);
+        }
         let scenario = self.of.mission.scenario();
         let is_start = at.first == 0 && at.rest.is_none() && available == scenario.available;
+        let slowed = self.slowed.as_ref().map(|it| it.activities(&self.of.activities));
+        let activities = slowed.as_deref().unwrap_or(&self.of.activities);
         let left = Left {
-            activities: &self.of.activities,
+            activities,
             first: at.first,
             rest: at.rest,
             available,
@@ -252,7 +300,8 @@ impl<'s> Planning<'s> {
         for activity in (at.first..self.choice.len()).rev() {
             let (mut cost, needs) = self.rest[activity + 1];
             let id = usize::from(self.choice[activity]);
-            for (sum, &part) in cost.iter_mut().zip(&self.of.whole[activity][id].cost) {
+            let whole = self.whole(activity, id).map_or([0; 2], |it| it.cost);
+            for (sum, part) in cost.iter_mut().zip(whole) {
                 *sum += u64::from(part);
             }
             self.rest[activity] = (cost, needs.union(self.chosen(activity).needs));
@@ -274,6 +323,7 @@ impl<'s> Planning<'s> {
             first_cost: proposal.first_cost,
             steps: proposal.planned.steps,
             allocator: proposal.allocator,
+            slowed_by: self.slowed.as_ref().map(Slowed::available),
         });
     }
 
@@ -283,7 +333,8 @@ impl<'s> Planning<'s> {
             let id = usize::from(self.choice[activity]);
             let rest = at.rest.filter(|_| activity == at.first);
             let partial = rest.and_then(|rest| self.chosen(activity).quality_of(rest));
-            u64::from(partial.unwrap_or(self.of.whole[activity][id].quality))
+            let whole = || self.whole(activity, id).map_or(0, |it| it.quality);
+            u64::from(partial.unwrap_or_else(whole))
         };
         (at.first..self.choice.len()).map(of).sum()
     }
@@ -325,12 +376,13 @@ impl<'s> Planning<'s> {
                 end: margins(&self.worst),
                 start: self.way_back(at, available).and_then(|way| margins(&way)),
             },
+            further: self.further_record(at),
         })
     }
 
     /// The alternative that is planned for an activity.
     pub(crate) fn chosen(&self, activity: usize) -> Alternative {
-        self.of.activities[activity].alternatives[usize::from(self.choice[activity])]
+        self.alternatives(activity)[usize::from(self.choice[activity])]
     }
 
     /// The name of the alternative that is planned for an activity.
@@ -343,56 +395,6 @@ impl<'s> Planning<'s> {
     /// Whether what is left of the plan in force needs no other hardware than this.
     pub(crate) fn needs_no_more(&self, at: &Progress, units: Equipment) -> bool {
         units.covers(self.remaining(at).1)
-    }
-
-    /// Returns the pace of an activity in a configuration: speed and power; that of the planned
-    /// alternative when none has it.
-    pub(crate) fn pace(
-        &self,
-        activity: usize,
-        configuration: Option<usize>,
-    ) -> (MillimetresPerSecond, Milliwatts) {
-        let alternative = self.driven(activity, configuration);
-        (alternative.speed, alternative.power)
-    }
-
-    /// Returns the power of standing in a configuration, with its hardware on.
-    pub(crate) fn rest_power(&self, activity: usize, configuration: Option<usize>) -> Milliwatts {
-        let mission = self.of.mission;
-        let standing = mission.motion_power.at(MillimetresPerSecond(0));
-        let hardware = mission.power_of(self.driven(activity, configuration).needs);
-        Milliwatts(standing.0.saturating_add(hardware.0))
-    }
-
-    fn driven(&self, activity: usize, configuration: Option<usize>) -> Alternative {
-        let all = &self.of.configurations[activity];
-        let with = all.iter().position(|it| it.is_some() && *it == configuration);
-        let at = with.unwrap_or_else(|| usize::from(self.choice[activity]));
-        self.of.activities[activity].alternatives[at]
-    }
-
-    /// Returns how much more (ms, mJ) the rest of the plan in force costs where its configurations
-    /// go no faster than this: `left` is the rest of the first activity.
-    pub(crate) fn slower(
-        &self,
-        first: usize,
-        left: Millimetres,
-        allowed: impl Fn(usize) -> MillimetresPerSecond,
-    ) -> [u64; 2] {
-        let more = |activity: usize| {
-            let (table, planned) = (&self.of.activities[activity], self.chosen(activity));
-            let id = usize::from(self.choice[activity]);
-            let speed = allowed(self.of.configurations[activity][id]?);
-            if speed.0 == 0 || speed >= planned.speed {
-                return None;
-            }
-            let whole = Millimetres(table.x_end.0.saturating_sub(table.x_start.0));
-            let way = if activity == first { left } else { whole };
-            let time = |speed: MillimetresPerSecond| way.0.saturating_mul(1_000).div_ceil(speed.0);
-            let more = Millis(time(speed).saturating_sub(time(planned.speed)));
-            Some([more.0, Millijoules::spent(planned.power, more).map_or(MAX_AMOUNT, |it| it.0)])
-        };
-        (first..self.choice.len()).filter_map(more).fold([0; 2], add)
     }
 
     /// Returns the mission.
@@ -419,43 +421,4 @@ const fn add(one: [u64; 2], other: [u64; 2]) -> [u64; 2] {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::options::Options;
-    use cotama_models::missions::{Mission, embedded};
-
-    #[test]
-    fn a_plan_that_fills_a_limit_to_the_last_unit_keeps_it() {
-        let delivery = embedded::mission("delivery").unwrap();
-        let mission = Mission::parse(delivery.name, delivery.text).unwrap();
-        let of = Plannable::new(&mission, &Options::default()).unwrap();
-        let start = Progress::start(Millimetres(0));
-        let planning = Planning::start(&of, &start, mission.available()).unwrap();
-        let left = planning.margins(&start).map(i64::unsigned_abs);
-        let cause = |used| {
-            let at = Progress { used, ..start };
-            match planning.clone().assess(&at, mission.available(), None) {
-                Assessed::Keeps => None,
-                Assessed::Fails(cause, _) => Some(cause),
-                Assessed::Planned => planning.made.last().map(|it| it.cause),
-            }
-        };
-        assert_eq!(cause(left), None);
-        let margin = |axis| Some(PlanCause::Margin { axis });
-        assert_eq!(cause(left.map(|it| it + 1)), margin(mission.order[0]));
-    }
-
-    #[test]
-    fn an_activity_is_under_way_at_its_start() {
-        let delivery = embedded::mission("delivery").unwrap();
-        let zone = "[[zone]]\nid = \"hall\"\nx_start_mm = 60000\nx_end_mm = 70000\n[run]";
-        let text = delivery.text.replacen("[run]", zone, 1);
-        let mission = Mission::parse(delivery.name, &text).unwrap();
-        let of = Plannable::new(&mission, &Options::default()).unwrap();
-        let start = Progress::start(Millimetres(0));
-        let planning = Planning::start(&of, &start, mission.available()).unwrap();
-        let at = |x_mm: u64| planning.activity(2, x_mm);
-        // The first drive, the object, and three parts of the second drive.
-        assert_eq!([40_000, 59_999, 60_000, 69_999, 70_000, 80_000].map(at), [2, 2, 3, 3, 4, 4]);
-    }
-}
+mod tests;

@@ -1,5 +1,6 @@
 //! The result of a run.
 
+use cotama_core::hardware::Equipment;
 use cotama_core::units::Millis;
 use cotama_models::margins::Spent;
 use cotama_models::missions::infeasible::amount;
@@ -130,8 +131,11 @@ pub struct PlanMade {
     pub first_cost: [u32; 2],
     /// The steps of the allocator.
     pub steps: u64,
-    /// The allocator that found it: `panorama` or `exact`.
+    /// The allocator that found it: `panorama`, `exact` or, by the wishes of a mission with axes,
+    /// `axes`.
     pub allocator: &'static str,
+    /// The hardware that works, where its loss changes speeds.
+    pub slowed_by: Option<Equipment>,
 }
 
 /// Why a plan was needed.
@@ -143,6 +147,11 @@ pub enum PlanCause {
     Margin {
         /// The axis.
         axis: usize,
+    },
+    /// The margin of a further sum is below zero, in a mission with axes.
+    End {
+        /// The end constraint, by its number among those of the scenario.
+        end: usize,
     },
     /// The plan needs hardware that failed.
     Hardware {
@@ -171,6 +180,7 @@ impl PlanCause {
         match self {
             Self::Start => "start".into(),
             Self::Margin { axis } => format!("{} margin below zero", AXES[axis.min(1)]),
+            Self::End { end } => format!("{} margin below zero", name_of(mission, end)),
             Self::Hardware { hardware, units } => {
                 const NUMBERS: [&str; 8] =
                     ["no", "one", "two", "three", "four", "five", "six", "seven"];
@@ -209,6 +219,13 @@ pub enum Reason {
         /// The axis.
         axis: usize,
         /// By how much, in ms or mJ.
+        by: u64,
+    },
+    /// An end constraint of a mission with axes does not hold.
+    EndMissed {
+        /// Its number among those of the scenario.
+        end: usize,
+        /// By how much, in the unit of its indicator.
         by: u64,
     },
     /// [`MAX_REPLANS`] plans were made, and one more was asked for.
@@ -272,6 +289,13 @@ pub enum NoPlan {
     },
 }
 
+/// Returns the name of an end constraint, by its number among those of the scenario.
+fn name_of(mission: &Mission, end: usize) -> &str {
+    let end = mission.scenario().ends.get(end).map(|it| it.constraint);
+    let constraints = mission.axes.as_ref().map(|it| &it.mission.constraints);
+    constraints.zip(end).and_then(|(all, it)| all.get(it)).map_or("further", |it| &it.id)
+}
+
 impl NoPlan {
     /// In words, with ids of the mission.
     pub fn text(self, mission: &Mission) -> String {
@@ -299,6 +323,9 @@ impl Reason {
             Self::LimitExceeded { axis, by } => {
                 let axis = axis.min(1);
                 format!("{} limit exceeded by {}", AXES[axis], amount(axis, by))
+            }
+            Self::EndMissed { end, by } => {
+                format!("`{}` does not hold, by {by}", name_of(mission, end))
             }
             Self::TooManyReplans => format!("stopped after {MAX_REPLANS} replans"),
             Self::TooManyChecks => format!("stopped after {MAX_CHECKS} checks"),

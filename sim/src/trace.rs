@@ -239,6 +239,18 @@ pub struct Plan {
     pub allocator: String,
     /// Amounts that would be left at each safe end if the robot went there the most expensive way.
     pub return_margin: ReturnMargin,
+    /// Margins of further sums, in a mission with axes that limits some.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub further: Vec<FurtherMargin>,
+}
+
+/// The margin of a sum beyond duration and energy.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FurtherMargin {
+    /// The end constraint that limits it.
+    pub constraint: String,
+    /// The margin, in the unit of the indicator; of an `at least` what is there beyond it.
+    pub margin: i64,
 }
 
 /// One activity of a plan.

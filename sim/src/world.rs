@@ -382,18 +382,22 @@ impl<'s> World<'s> {
 
     /// All activities are done.
     fn finish(&mut self) {
-        self.ended = Some(match self.exceeded() {
+        self.ended = Some(match self.exceeded(true) {
             Some(reason) => (Outcome::Failed, Some(reason)),
             None => (Outcome::Completed, None),
         });
     }
 
-    /// The limit that what was used exceeds, the first in their order.
-    fn exceeded(&self) -> Option<Reason> {
+    /// The limit that what was used exceeds, the first in their order; of a mission that is done
+    /// also what was to be reached.
+    fn exceeded(&self, is_done: bool) -> Option<Reason> {
         let margins = self.left();
         let order = self.simulation.mission().scenario().order;
-        let axis = order.into_iter().find(|&axis| margins[axis] < 0)?;
-        Some(Reason::LimitExceeded { axis, by: margins[axis].unsigned_abs() })
+        if let Some(axis) = order.into_iter().find(|&axis| margins[axis] < 0) {
+            return Some(Reason::LimitExceeded { axis, by: margins[axis].unsigned_abs() });
+        }
+        let missed = self.planning.missed(&self.progress(), is_done);
+        missed.map(|(end, by)| Reason::EndMissed { end, by })
     }
 
     /// Limits less used, when nothing is planned any more.

@@ -107,6 +107,7 @@ fn case() -> impl Strategy<Value = Case> {
                     rigid: false,
                     fidelity: Fidelity::Line,
                     measured: None,
+                    margins: None,
                     people: 0,
                     upward: upward
                         .map(|(t, e, rt, re)| Upward { growth: [t, e], reserve: [rt, re] }),

@@ -98,3 +98,13 @@ pub(crate) struct ChoiceRow {
     /// Zero where the robot stands.
     pub(crate) speed_mm_s: i64,
 }
+
+/// The margin of a sum beyond duration and energy.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct FurtherMargin {
+    /// The end constraint.
+    pub(crate) constraint: String,
+    /// In the unit of the indicator.
+    pub(crate) margin: i64,
+}

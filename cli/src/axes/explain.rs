@@ -1,13 +1,13 @@
 //! `cotama explain`: why candidates of a mission with axes are not faster.
 
-use super::{File, dropped_row, inducer_row};
+use super::{dropped_row, inducer_row};
 use crate::answers::explain::{
     BecauseRow, BindingRow, CandidateRow, ExplainAnswer, HeldRow, RaiseRow,
 };
 use crate::args::ExplainArgs;
 use crate::exit::{Exit, Failure};
 use crate::mission;
-use crate::names::{is_name, near, quoted};
+use crate::names::{near, quoted};
 use crate::output::Screen;
 use crate::render;
 use cotama_axes::raise::{Raise, raises};
@@ -19,13 +19,12 @@ use cotama_axes::{
 /// Says why candidates are not faster.
 pub(crate) fn explain(args: &ExplainArgs, screen: &Screen) -> Result<Exit, Failure> {
     let name = &args.mission;
-    if !super::is(name) && is_name(name) {
+    let Some(file) = super::file(name)? else {
         // A plain mission, or no mission at all.
         let plain = mission::load(name, None)?;
         let message = format!("`{}` says its speeds itself, and has no axes", plain.name);
         return Err(Failure::new(message).help("explain a mission with axes, as `patrol-axes`"));
-    }
-    let file = File::load(name)?;
+    };
     let mission = &file.case.mission;
     let steps = &mut Steps::new(args.steps);
     let mut answer = ExplainAnswer {

@@ -174,7 +174,26 @@ fn plans(body: &RunBody, width: usize) -> String {
     if body.plans.len() > SHOWN_PLANS {
         let _ = writeln!(text, "  and {} more plans: see --json", body.plans.len() - SHOWN_PLANS);
     }
-    text
+    text + &further(body, width)
+}
+
+/// Returns the margins of further sums that axes limit, after each plan; nothing where there are
+/// none.
+fn further(body: &RunBody, width: usize) -> String {
+    let Some(first) = body.plans.first().filter(|it| !it.further.is_empty()) else {
+        return String::new();
+    };
+    let names = first.further.iter().map(|it| Cell::faint(&it.constraint));
+    let head = [Cell::faint("plan")].into_iter().chain(names);
+    let mut table = Table::new(vec![head.collect()]);
+    for (number, plan) in body.plans.iter().enumerate().take(SHOWN_PLANS) {
+        let margins = plan.further.iter().map(|it| {
+            let style = if it.margin < 0 { BAD } else { GOOD };
+            Cell::new(it.margin.to_string(), style)
+        });
+        table.row([Cell::new(number.to_string(), HEADING)].into_iter().chain(margins).collect());
+    }
+    format!("\nmargins of further sums, after each plan, in their units\n{}", table.render(width))
 }
 
 /// Returns the choices of each plan for each activity.

@@ -1,5 +1,6 @@
 //! The result of a run, from its trace.
 
+use crate::answers::axes_run::FurtherMargin;
 use crate::answers::{EventRow, Outcome, PlanMade, PlanRow, RunBody};
 use cotama_core::units::mul_div_half_up;
 use cotama_sim::run::Run;
@@ -71,7 +72,12 @@ fn plan_made(plan: &Plan) -> PlanMade {
         energy_margin_after_mj: plan.after.energy_mj,
         steps: plan.steps,
         allocator: plan.allocator.clone(),
+        further: plan.further.iter().map(further).collect(),
     }
+}
+
+fn further(it: &trace::FurtherMargin) -> FurtherMargin {
+    FurtherMargin { constraint: it.constraint.clone(), margin: it.margin }
 }
 
 fn event_row(event: &Event) -> EventRow {

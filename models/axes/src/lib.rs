@@ -54,7 +54,7 @@ pub use mission::{
     Mission, Objective, Relation, Sense, Tio, Zone,
 };
 pub use plan::{Plan, Point, Problem};
-pub use read::{CASE_FORMAT, Case, FORMAT, MAX_BYTES};
+pub use read::{CASE_FORMAT, Case, FORMAT, Ground, Keys, MAX_BYTES};
 pub use speeds::Speeds;
 pub use steps::{STEPS, Steps, Stop};
 pub use table::{Activity, Candidate, Dropped, Reason, Table, label, speed_alone};

@@ -7,6 +7,12 @@ use crate::speeds::Speeds;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Attributes(pub(crate) Vec<(String, i64)>);
 
+impl FromIterator<(String, i64)> for Attributes {
+    fn from_iter<I: IntoIterator<Item = (String, i64)>>(all: I) -> Self {
+        Self(all.into_iter().collect())
+    }
+}
+
 impl Attributes {
     /// Returns the number of this name.
     pub fn get(&self, key: &str) -> Option<i64> {
@@ -81,6 +87,8 @@ pub struct Tio {
     pub task: String,
     /// Units that it needs, one number a kind of hardware.
     pub needs: Vec<i64>,
+    /// The highest speed that it drives itself, mm/s, where that is below the robot's.
+    pub most_mm_s: Option<i64>,
     /// Attributes, as the load of its software.
     pub attributes: Attributes,
 }
@@ -123,6 +131,8 @@ pub struct Zone {
     pub require_tio: Option<usize>,
     /// The hardware that the leading option must need here, by index.
     pub require_hardware: Option<usize>,
+    /// The highest speed that is allowed here, mm/s, whatever formulas say.
+    pub most_mm_s: Option<i64>,
     /// Attributes, as the width.
     pub attributes: Attributes,
 }

@@ -3,6 +3,7 @@
 
 mod judged;
 mod keys;
+mod over;
 mod parts;
 mod run;
 
@@ -12,7 +13,9 @@ use crate::mission::{Ask, Attributes, DetectBy, Hardware, Mission};
 use crate::speeds::Speeds;
 use crate::tree::{Fault, Node, Value, Wrongs};
 use crate::{json, toml_text};
-use keys::Keys;
+
+pub use keys::Keys;
+pub use over::Ground;
 
 /// The format of a mission with axes in TOML.
 pub const FORMAT: &str = "cotama-axes/1";
@@ -57,17 +60,22 @@ impl Case {
     pub fn parse(text: &str) -> Result<Self, Wrongs> {
         let faults = Faults::default();
         let case = read(text, &faults);
-        let (all, omitted) = faults.into_sorted();
-        let Some(mut case) = case.filter(|_| all.is_empty()) else {
-            debug_assert!(!all.is_empty());
-            let all = all.into_iter().map(|it| it.in_text(text)).collect();
-            return Err(Wrongs { all, omitted });
-        };
-        for it in &mut case.mission.indicators {
-            it.travel.iter_mut().chain(&mut it.stand).for_each(|it| it.locate(text));
-        }
-        Ok(case)
+        located(case, faults, text)
     }
+}
+
+/// Returns what was read, or all that is wrong; places become lines and columns.
+fn located(case: Option<Case>, faults: Faults, text: &str) -> Result<Case, Wrongs> {
+    let (all, omitted) = faults.into_sorted();
+    let Some(mut case) = case.filter(|_| all.is_empty()) else {
+        debug_assert!(!all.is_empty());
+        let all = all.into_iter().map(|it| it.in_text(text)).collect();
+        return Err(Wrongs { all, omitted });
+    };
+    for it in &mut case.mission.indicators {
+        it.travel.iter_mut().chain(&mut it.stand).for_each(|it| it.locate(text));
+    }
+    Ok(case)
 }
 
 /// Reads a file; where there are faults, the case is as if they were not.
@@ -87,14 +95,14 @@ fn read(text: &str, faults: &Faults) -> Option<Case> {
         CASE_FORMAT => {
             let name = fields.name("id").1;
             let mut inner = Fields::of(fields.required("mission")?, "the mission", faults);
-            let mut reader = Reader::new(name, false, faults);
+            let mut reader = Reader::new(&name, false, faults);
             reader.mission(&mut inner);
             inner.finish();
             Some(reader.ask(&mut fields))
         }
         FORMAT => {
             let name = fields.name("name").1;
-            let mut reader = Reader::new(name, true, faults);
+            let mut reader = Reader::new(&name, true, faults);
             let length = reader.mission(&mut fields);
             let course = reader.run(fields.optional("run"), length);
             let case = reader.ask(&mut fields);
@@ -120,22 +128,8 @@ struct Reader<'n, 'f> {
 }
 
 impl<'n, 'f> Reader<'n, 'f> {
-    fn new(name: String, is_strict: bool, faults: &'f Faults) -> Self {
-        let mission = Mission {
-            name,
-            robot: Attributes::default(),
-            speeds: Speeds::Levels(Vec::new()),
-            laptop: Attributes::default(),
-            motion_power: [0; 3],
-            detect_by: DetectBy::Option,
-            hardware: Vec::new(),
-            options: Vec::new(),
-            objectives: Vec::new(),
-            zones: Vec::new(),
-            axes: Vec::new(),
-            indicators: Vec::new(),
-            constraints: Vec::new(),
-        };
+    fn new(name: &str, is_strict: bool, faults: &'f Faults) -> Self {
+        let mission = Mission::empty(name);
         Self { mission, seen: Vec::new(), is_strict, faults }
     }
 
@@ -148,11 +142,7 @@ impl<'n, 'f> Reader<'n, 'f> {
             // An empty name stands for all that could not be read.
             None => self.mission.robot = Attributes(vec![(String::new(), 0)]),
         }
-        if let Some(node) = fields.optional("laptop") {
-            let laptop = Fields::of(node, "`laptop`", self.faults);
-            self.seen.push((Keys::Laptop, laptop.left()));
-            self.mission.laptop = laptop.attributes();
-        }
+        self.laptop(fields);
         if let Some(node) = fields.required("motion_power") {
             let mut power = Fields::of(node, "`motion_power`", self.faults);
             self.mission.motion_power =
@@ -160,12 +150,7 @@ impl<'n, 'f> Reader<'n, 'f> {
             power.finish();
         }
         if let Some(node) = fields.required("detection") {
-            let mut detection = Fields::of(node, "`detection`", self.faults);
-            let word = detection.word("detect_by", "way to detect", &["zone", "option"]);
-            if word.is_some_and(|it| it.1 == 0) {
-                self.mission.detect_by = DetectBy::Zone;
-            }
-            detection.finish();
+            self.detection(node);
         }
         for entry in fields.named("hardware", MAX_HARDWARE) {
             let what = format!("the hardware `{}`", entry.key);
@@ -191,6 +176,22 @@ impl<'n, 'f> Reader<'n, 'f> {
     }
 
     /// Reads the robot; its step and its most stay attributes, too: a formula may read them.
+    fn laptop(&mut self, fields: &mut Fields<'n, 'f>) {
+        let Some(node) = fields.optional("laptop") else { return };
+        let laptop = Fields::of(node, "`laptop`", self.faults);
+        self.seen.push((Keys::Laptop, laptop.left()));
+        self.mission.laptop = laptop.attributes();
+    }
+
+    fn detection(&mut self, node: &Node) {
+        let mut detection = Fields::of(node, "`detection`", self.faults);
+        let word = detection.word("detect_by", "way to detect", &["zone", "option"]);
+        if word.is_some_and(|it| it.1 == 0) {
+            self.mission.detect_by = DetectBy::Zone;
+        }
+        detection.finish();
+    }
+
     fn robot(&mut self, node: &'n Node) {
         let mut robot = Fields::of(node, "`robot`", self.faults);
         let speeds = self.speeds(&mut robot);

@@ -31,6 +31,22 @@ impl Speeds {
         }
     }
 
+    /// Returns the number of speeds that are no higher than one in mm/s.
+    ///
+    /// ```
+    /// use cotama_axes::Speeds;
+    /// assert_eq!(Speeds::Step { step_mm_s: 10, most_mm_s: 765 }.up_to(419), 41);
+    /// assert_eq!(Speeds::Levels(vec![330, 410]).up_to(410), 2);
+    /// ```
+    pub fn up_to(&self, most_mm_s: i64) -> usize {
+        match self {
+            Self::Step { step_mm_s, most_mm_s: own } => {
+                Self::Step { step_mm_s: *step_mm_s, most_mm_s: most_mm_s.min(*own).max(0) }.count()
+            }
+            Self::Levels(all) => all.iter().filter(|it| **it <= most_mm_s).count(),
+        }
+    }
+
     /// Returns the speed of this number, from 0 and the lowest, in mm/s; zero beyond the last.
     pub fn at(&self, number: usize) -> i64 {
         match self {

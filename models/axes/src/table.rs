@@ -287,7 +287,7 @@ pub(crate) fn combination(
     }
     let tests = tests(mission, activity, &world, |it| !lifted.has(it))?;
     let travels = activity.travels();
-    let speeds = if travels { mission.speeds.count() } else { 1 };
+    let speeds = if travels { mission.speeds.up_to(world.most_mm_s()) } else { 1 };
     let work = 1 + tests.iter().map(|it| it.formula.size()).sum::<u64>();
     let mut broken = Vec::new();
     for number in (0..speeds).rev() {

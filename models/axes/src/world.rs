@@ -69,6 +69,13 @@ impl<'m> World<'m> {
         detects.flatten().is_some() && !zones.any(|it| it.blind.contains(&kind))
     }
 
+    /// Returns the highest speed that zones and options allow, whatever formulas say.
+    pub(crate) fn most_mm_s(&self) -> i64 {
+        let zones = self.zones.iter().filter_map(|&it| self.mission.zones.get(it)?.most_mm_s);
+        let chosen = self.options.iter().filter_map(|&it| self.mission.options.get(it)?.most_mm_s);
+        zones.chain(chosen).min().unwrap_or(i64::MAX)
+    }
+
     /// Returns what follows from a speed; a robot that stands does so for as long as its option
     /// says.
     pub(crate) fn at(&self, speed_mm_s: i64) -> Motion {

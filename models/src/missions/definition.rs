@@ -1,7 +1,8 @@
-//! The contents of a `panorama-mission/1` file, as data with units.
+//! The contents of a mission file, as data with units.
 
 use super::diagnostic::Spanned;
 use super::faults::Run;
+use super::numbers::Numbers;
 use super::people::People;
 use super::terms::{MotionPower, PlannedFor};
 use super::under::Under;
@@ -178,6 +179,8 @@ pub struct Robot {
     pub impact_energy_max: Millijoules,
     /// The fastest it may go so that it does: see [`harmless_speed`](super::harmless_speed).
     pub speed_harmless: MillimetresPerSecond,
+    /// Numbers that formulas of axes read.
+    pub own: Numbers,
 }
 
 /// A kind of hardware, switched on and off in units.
@@ -189,6 +192,8 @@ pub struct Hardware {
     pub units: u8,
     /// The power of one unit.
     pub power: Milliwatts,
+    /// Numbers that formulas of axes read.
+    pub own: Numbers,
 }
 
 /// Time and power of a task that does not travel.
@@ -219,6 +224,8 @@ pub struct Tio {
     pub quality: u32,
     /// Time and power of the task standing; `None` for tasks that travel or run along.
     pub standing: Option<Standing>,
+    /// Numbers that formulas of axes read.
+    pub own: Numbers,
 }
 
 /// An objective: tasks that run at the same time on a part of the path.
@@ -271,6 +278,10 @@ pub struct Zone {
     pub require_hardware: Option<Spanned<HardwareRequirement>>,
     /// The index of the TIO that must be used.
     pub require_tio: Option<Spanned<usize>>,
+    /// The kinds of hardware that see no obstacles here, by index.
+    pub blind: Vec<usize>,
+    /// Numbers that formulas of axes read.
+    pub own: Numbers,
 }
 
 /// Everything a mission file says.
@@ -317,6 +328,8 @@ pub struct Definition {
     pub people: People,
     /// How the mission is run by a simulator.
     pub run: Run,
+    /// Axes, constraints and wishes, where speeds and limits follow from them.
+    pub axes: Option<Box<cotama_axes::Case>>,
 }
 
 impl Definition {
@@ -329,6 +342,11 @@ impl Definition {
             .iter()
             .enumerate()
             .fold(Equipment::NONE, |all, one| with(all, one).unwrap_or(all))
+    }
+
+    /// Whether plans are chosen by the wishes of a mission with axes, within all end constraints.
+    pub fn plans_by_wishes(&self) -> bool {
+        self.axes.as_ref().is_some_and(|it| !it.ask.is_empty())
     }
 
     /// The power of these units.

@@ -17,6 +17,8 @@ pub const SPEEDS: RangeInclusive<i64> = 1..=100_000;
 pub const QUALITIES: RangeInclusive<i64> = 0..=1_000_000;
 /// Limits of energy in mJ: up to 1 GJ.
 pub const ENERGIES: RangeInclusive<i64> = 1..=1_000_000_000_000;
+/// A limit that no mission reaches, in ms or mJ: that of an axis without a constraint.
+pub const NO_LIMIT: u64 = 1_000_000_000_000_000;
 /// Units of one kind of hardware that there are, are lost or come back.
 pub const UNITS: RangeInclusive<i64> = 1..=MAX_UNITS as i64;
 /// Units of one kind of hardware that an option needs.
@@ -27,6 +29,8 @@ pub const PERIODS: RangeInclusive<i64> = 1..=3_600_000;
 pub const POWER_ERRORS: RangeInclusive<i64> = -999..=10_000;
 /// How many random events are expected on a kilometre.
 pub const PER_KM: RangeInclusive<i64> = 1..=1000;
+/// Attributes of parts of a mission, which formulas of axes read.
+pub const ATTRIBUTES: RangeInclusive<i64> = -1_000_000_000_000..=1_000_000_000_000;
 /// How many characters the name of a mission has.
 pub const NAME_LENGTHS: RangeInclusive<usize> = 1..=100;
 /// How many characters an id has.

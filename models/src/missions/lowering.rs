@@ -2,9 +2,10 @@
 
 use super::definition::{Definition, Hardware, Robot, Task, Tio};
 use super::diagnostic::Diagnostic;
+use super::numbers::Numbers;
 use super::reader::Sink;
 use super::terms::{MotionPower, harmless_speed};
-use super::under::{Under, second};
+use super::under::{Under, of_robot};
 use crate::robots::{self, Mode, Parts, RobotFile};
 use cotama_core::hardware::{Equipment, MAX_KINDS};
 use cotama_core::units::{Millijoules, Milliwatts};
@@ -12,7 +13,7 @@ use std::ops::Range;
 
 /// Returns the robot that a text of the second format names.
 pub(super) fn named(text: &str) -> Option<String> {
-    Some(second(text)?.get("robot")?.as_str()?.to_owned())
+    Some(of_robot(text)?.get("robot")?.as_str()?.to_owned())
 }
 
 /// The parts of a mission that its robot gives.
@@ -52,7 +53,8 @@ impl Under {
                 return refused(0..0, message, "let fewer modules serve an option");
             }
             let (name, power) = (it.name.clone(), Milliwatts(0));
-            definition.hardware.push(Hardware { name, units: 1, power });
+            let own = Numbers::default();
+            definition.hardware.push(Hardware { name, units: 1, power, own });
             for tio in definition.tios.iter_mut().filter(|tio| tio.id == it.serves) {
                 tio.needs = tio.needs.with(kind, 1).unwrap_or(tio.needs);
             }
@@ -88,7 +90,12 @@ impl Under {
             let configuration = robot.configurations.get(*it)?;
             let name = configuration.name.clone();
             let power = power_of(robot, configuration.required);
-            hardware.push(Hardware { name: name.clone(), units: 1, power });
+            hardware.push(Hardware {
+                name: name.clone(),
+                units: 1,
+                power,
+                own: Numbers::default(),
+            });
             let worse = (all.len() - kind) as u32;
             tios.push(Tio {
                 id: name,
@@ -99,6 +106,7 @@ impl Under {
                 quality_per_dm: worse,
                 quality: 0,
                 standing: None,
+                own: Numbers::default(),
             });
         }
         let harmless = body.impact.map(|(mass, energy)| harmless_speed(mass, Millijoules(energy)));
@@ -110,6 +118,7 @@ impl Under {
                 speed_max: body.speed_max,
                 impact_energy_max: Millijoules(energy),
                 speed_harmless: harmless.unwrap_or(body.speed_max),
+                own: Numbers::default(),
             },
             motion_power: body.motion_power,
             hardware,

@@ -21,15 +21,17 @@
 //! mission must make sense: drives lead on, an object is received before it is delivered, one at a
 //! time, and delivered in the end; it does not end with waiting; no objective passes a limit alone.
 
-use super::definition::Definition;
+use super::axed;
+use super::definition::{AXES, Definition};
 use super::diagnostic::{Diagnostic, MissionErrors};
 use super::lowering;
 use super::reader::{self, Sink};
-use super::scenario::{Constraint, Scenario};
+use super::scenario::{Constraint, Derived, Scenario, Slowed, ends, slowed};
 use super::supervised;
-use super::under::{FORMAT_2, Under, second};
+use super::under::{FORMAT_2, FORMAT_3, Under, is_axed, of_robot};
 use super::way::Way;
 use crate::robots::{Moment, RobotFile, supervisors::Step};
+use cotama_core::hardware::Equipment;
 use std::ops::Deref;
 
 /// The format that a mission file must name.
@@ -136,14 +138,21 @@ impl Mission {
         way: Option<&Way>,
     ) -> Result<Self, MissionErrors> {
         let sink = Sink::default();
-        let definition = if second(text).is_some() {
+        let axed = is_axed(text);
+        let definition = if of_robot(text).is_some() {
             let robot = robot.as_ref();
-            reader::document(text, &sink, FORMAT_2, |root| reader::definition_of(root, robot, way))
+            let format = if axed { FORMAT_3 } else { FORMAT_2 };
+            reader::document(text, &sink, format, |root| {
+                reader::definition_of(root, robot, way, axed)
+            })
         } else {
-            let plain = reader::document(text, &sink, FORMAT, reader::definition);
+            let format = if axed { FORMAT_3 } else { FORMAT };
+            let plain = reader::document(text, &sink, format, |it| reader::definition(it, axed));
             plain.and_then(|it| Under::given(it, robot, &sink))
         };
         let definition = definition.filter(|_| sink.is_empty());
+        let definition =
+            if axed { definition.and_then(|it| axed::read(it, text, &sink)) } else { definition };
         let mut errors = sink.into_diagnostics();
         if let Some(definition) = definition {
             match Unfolded::checked(definition) {
@@ -182,7 +191,20 @@ impl Mission {
     /// assert!(poor.text().contains("energy_mj = 4320000"));
     /// ```
     pub fn with_limits(&self, limits: [Option<u64>; 2]) -> Result<Self, MissionErrors> {
-        let text = reader::with_limits(&self.text, limits);
+        let Unfolded { definition, scenario } = &self.unfolded;
+        let constraints = definition.axes.is_some().then(|| ends::limiting(&scenario.ends));
+        let missing = constraints.iter().flatten().zip(limits).zip(AXES);
+        let missing =
+            missing.filter(|((constraint, limit), _)| constraint.is_none() && limit.is_some());
+        let missing = missing.map(|(_, axis)| {
+            let message = format!("no end constraint of this mission limits its {axis}");
+            Diagnostic::new(0..0, message, "").help("add one to change its goal")
+        });
+        let missing: Vec<_> = missing.collect();
+        if !missing.is_empty() {
+            return Err(MissionErrors::new(&self.source, &self.text, missing));
+        }
+        let text = reader::with_limits(&self.text, limits, constraints);
         Self::parse_on(&self.source, &text, self.robot().cloned(), self.way.as_ref())
     }
 }
@@ -191,6 +213,8 @@ impl Unfolded {
     /// The whole of a definition, or what is wrong with it as a whole.
     fn checked(definition: Definition) -> Result<Self, Vec<Diagnostic>> {
         let scenario = Scenario::generate(&definition)?;
+        let Scenario { limits, order, .. } = scenario;
+        let definition = Definition { limits, order, ..definition };
         supervised::check(&definition)?;
         Ok(Self { definition, scenario })
     }
@@ -213,6 +237,19 @@ impl Unfolded {
     /// The activities and their alternatives.
     pub fn scenario(&self) -> &Scenario {
         &self.scenario
+    }
+
+    /// Returns the alternatives with the speeds that axes allow when only this hardware works;
+    /// `None` where speeds do not follow from it.
+    pub fn slowed(&self, available: Equipment) -> Option<Slowed> {
+        slowed(&self.definition, &self.scenario.activities, available)
+    }
+
+    /// Returns a mission with axes as one of the planner of any axes, on its robot and its path.
+    pub fn case(&self) -> Option<cotama_axes::Case> {
+        let case = self.definition.axes.as_ref()?;
+        let derived = Derived::of(&self.definition, self.available()).ok()??;
+        Some(cotama_axes::Case { mission: derived.mission, ..(**case).clone() })
     }
 
     /// The mission with one constraint of a zone lifted; `None` when the zone has no such

@@ -8,6 +8,8 @@
 pub mod tables;
 
 #[cfg(feature = "std")]
+mod axed;
+#[cfg(feature = "std")]
 mod definition;
 #[cfg(feature = "std")]
 mod diagnostic;
@@ -23,6 +25,8 @@ pub mod known;
 mod lowering;
 #[cfg(feature = "std")]
 mod mission;
+#[cfg(feature = "std")]
+mod numbers;
 #[cfg(feature = "std")]
 mod people;
 #[cfg(feature = "std")]
@@ -40,6 +44,8 @@ mod terms;
 #[cfg(feature = "std")]
 mod under;
 #[cfg(feature = "std")]
+mod upgrade;
+#[cfg(feature = "std")]
 mod way;
 
 #[cfg(feature = "std")]
@@ -52,17 +58,21 @@ pub use diagnostic::{Diagnostic, MAX_DIAGNOSTICS, MissionErrors, Position, Spann
 #[cfg(feature = "std")]
 pub use mission::{FORMAT, Mission, Unfolded};
 #[cfg(feature = "std")]
+pub use numbers::Numbers;
+#[cfg(feature = "std")]
 pub use people::{People, Walker};
 #[cfg(feature = "std")]
 pub use remaining::Remaining;
 #[cfg(feature = "std")]
 pub use scenario::{
-    Constraint, Dropped, MAX_ACTIVITIES, MAX_ALTERNATIVES, MAX_ALTERNATIVES_TOTAL, PlannedActivity,
-    Scenario,
+    Constraint, Dropped, End, Grows, MAX_ACTIVITIES, MAX_ALTERNATIVES, MAX_ALTERNATIVES_TOTAL,
+    PlannedActivity, Scenario, Slowed,
 };
 #[cfg(feature = "std")]
 pub use terms::{MotionPower, PlannedFor, harmless_speed};
 #[cfg(feature = "std")]
-pub use under::{FORMAT_2, Under};
+pub use under::{FORMAT_2, FORMAT_3, Under};
+#[cfg(feature = "std")]
+pub use upgrade::NotUpgraded;
 #[cfg(feature = "std")]
 pub use way::{Asked, Leg, NoLeg, Refusal, Way};

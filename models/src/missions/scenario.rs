@@ -4,11 +4,20 @@
 //! of the zones, so that the constraints are the same all along an activity; its alternatives are
 //! the product of the options of its tasks, without those that a constraint excludes.
 
-use super::definition::{Definition, Objective, Task, Zone};
+use super::definition::{Definition, Objective, Zone};
 use super::diagnostic::Diagnostic;
 use super::tables::{Activity, Alternative};
 use cotama_core::hardware::Equipment;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Milliwatts};
+
+mod derived;
+pub(super) mod ends;
+mod excluding;
+
+pub use derived::Slowed;
+pub(super) use derived::{Derived, slowed};
+pub use ends::{End, Grows};
+use excluding::{demand, emptied, excluding, too_expensive};
 
 /// The most activities of a mission.
 pub const MAX_ACTIVITIES: usize = 10_000;
@@ -41,7 +50,7 @@ pub enum Constraint {
 pub struct Dropped {
     /// The ids of its options, as in [`PlannedActivity::labels`].
     pub label: String,
-    /// Every constraint that excludes it, with the index of its zone.
+    /// Every constraint that excludes it, with the index of its zone; none where axes do.
     pub by: Vec<(usize, Constraint)>,
     /// The same for people.
     pub reason: String,
@@ -66,6 +75,8 @@ pub struct PlannedActivity {
     pub labels: Vec<String>,
     /// The alternatives that the constraints excluded.
     pub dropped: Vec<Dropped>,
+    /// For each alternative of a mission with axes the values of all indicators.
+    pub derived: Vec<cotama_axes::Candidate>,
 }
 
 impl PlannedActivity {
@@ -101,6 +112,8 @@ pub struct Scenario {
     pub order: [usize; 2],
     /// All the hardware of the robot.
     pub available: Equipment,
+    /// The end constraints of a mission with axes.
+    pub ends: Vec<End>,
 }
 
 impl Scenario {
@@ -124,6 +137,7 @@ impl Scenario {
     /// scenario before a constraint or an objective was taken away.
     pub(crate) fn generate(definition: &Definition) -> Result<Self, Vec<Diagnostic>> {
         let parts = cut(definition)?;
+        let derived = Derived::of(definition, definition.available()).map_err(|it| vec![it])?;
         let mut activities = Vec::with_capacity(parts.len());
         let mut errors = Vec::new();
         let mut combinations = Vec::new();
@@ -143,7 +157,7 @@ impl Scenario {
                 let span = part.task_objective.span.clone();
                 return Err(vec![Diagnostic::new(span, message, "up to here").help(help)]);
             }
-            match plan(definition, place, part, &combinations) {
+            match plan(definition, (place, part), &combinations, derived.as_ref()) {
                 Ok(activity) => activities.push(activity),
                 // One combination of an objective says it all.
                 Err(Impossible::TooExpensive(_)) if too_expensive == Some(part.objective) => {}
@@ -158,7 +172,18 @@ impl Scenario {
             return Err(errors);
         }
         let Definition { limits, order, .. } = *definition;
-        Ok(Self { activities, limits, order, available: definition.available() })
+        let available = definition.available();
+        let Some(derived) = derived else {
+            return Ok(Self { activities, limits, order, available, ends: Vec::new() });
+        };
+        let ends = ends::of(&derived.mission, &activities)?;
+        if !definition.plans_by_wishes() && ends::are_further(&ends) {
+            let message = "`ask` is missing: nothing says what plans are chosen for";
+            let help = "name wishes, the first counts most: ask = [[\"min\", \"energy.total\"]]";
+            return Err(vec![Diagnostic::new(0..0, message, "").help(help)]);
+        }
+        let (limits, order) = ends::limits(&ends);
+        Ok(Self { activities, limits, order, available, ends })
     }
 }
 
@@ -256,9 +281,9 @@ enum Impossible {
 
 fn plan(
     definition: &Definition,
-    place: usize,
-    part: &Part<'_>,
+    (place, part): (usize, &Part<'_>),
     combinations: &[Combination],
+    derived: Option<&Derived>,
 ) -> Result<PlannedActivity, Impossible> {
     let travels = part.task_objective.travels();
     let covers = |zone: &Zone| travels && zone.x_start <= part.x_start && part.x_end <= zone.x_end;
@@ -277,9 +302,23 @@ fn plan(
         alternatives: Vec::new(),
         labels: Vec::new(),
         dropped: Vec::new(),
+        derived: Vec::new(),
     };
     for combination in combinations {
-        let alternative = alternative(definition, &activity, combination);
+        let by = excluding(definition, &zones, combination);
+        let found = derived.map(|it| it.candidate(place, &combination.tios)).transpose();
+        let speed = match &found {
+            Ok(None) => combination.speed_max.into_iter().fold(slowest, MillimetresPerSecond::min),
+            Ok(Some(it)) => MillimetresPerSecond(it.speed_mm_s.unsigned_abs()),
+            Err(reason) => {
+                let demands = by.iter().map(|&(zone, it)| demand(definition, zone, it));
+                let reason = demands.chain(by.is_empty().then(|| reason.clone()));
+                let reason = reason.collect::<Vec<_>>().join("; ");
+                activity.dropped.push(Dropped { label: combination.label.clone(), by, reason });
+                continue;
+            }
+        };
+        let alternative = alternative(definition, speed, combination);
         let whole = Activity { x_start: part.x_start, x_end: part.x_end, alternatives: &[] }
             .whole(&alternative);
         // Excluded combinations are held to this too, so that lifting a constraint cannot fail.
@@ -290,16 +329,20 @@ fn plan(
                 &combination.label,
             )));
         }
-        let by = excluding(definition, &zones, combination);
         if by.is_empty() {
             activity.alternatives.push(alternative);
             activity.labels.push(combination.label.clone());
+            activity.derived.extend(found.ok().flatten().cloned());
         } else {
             let reasons: Vec<_> =
                 by.iter().map(|&(zone, constraint)| demand(definition, zone, constraint)).collect();
             let reason = reasons.join("; ");
             activity.dropped.push(Dropped { label: combination.label.clone(), by, reason });
         }
+    }
+    if derived.is_some() && travels {
+        let speeds = activity.alternatives.iter().map(|it| it.speed);
+        activity.speed_max = speeds.max().unwrap_or(MillimetresPerSecond::ZERO);
     }
     if activity.alternatives.is_empty() {
         return Err(Impossible::Empty(emptied(definition, &activity, part)));
@@ -311,7 +354,7 @@ fn plan(
 /// the leading one takes standing, and everything they need is on.
 fn alternative(
     definition: &Definition,
-    activity: &PlannedActivity,
+    speed: MillimetresPerSecond,
     combination: &Combination,
 ) -> Alternative {
     let tios = || combination.tios.iter().filter_map(|&tio| definition.tios.get(tio));
@@ -327,8 +370,6 @@ fn alternative(
             quality,
         );
     }
-    let speed =
-        combination.speed_max.into_iter().fold(activity.speed_max, MillimetresPerSecond::min);
     let quality = tios().map(|tio| tio.quality_per_dm).sum();
     Alternative::travelling(
         speed.0,
@@ -336,90 +377,4 @@ fn alternative(
         combination.needs,
         quality,
     )
-}
-
-/// The constraints that exclude a combination, in the order of the file.
-fn excluding(
-    definition: &Definition,
-    zones: &[(usize, &Zone)],
-    combination: &Combination,
-) -> Vec<(usize, Constraint)> {
-    let moving = definition.tios.get(combination.lead).filter(|tio| tio.task == Task::Move);
-    let uses = moving.map_or(Equipment::NONE, |tio| tio.needs);
-    let mut by = Vec::new();
-    for &(index, zone) in zones {
-        let hardware = zone.require_hardware.as_ref().map(|required| required.value);
-        if hardware.is_some_and(|required| uses.of(required.hardware) < required.units) {
-            by.push((index, Constraint::Hardware));
-        }
-        let tio = zone.require_tio.as_ref().map(|required| required.value);
-        if tio.is_some_and(|required| !combination.tios.contains(&required)) {
-            by.push((index, Constraint::Tio));
-        }
-    }
-    by
-}
-
-/// Returns the demand of a constraint, in words.
-fn demand(definition: &Definition, zone: usize, constraint: Constraint) -> String {
-    let Some(zone) = definition.zones.get(zone) else { return String::new() };
-    match (constraint, &zone.require_hardware, &zone.require_tio) {
-        (Constraint::Hardware, Some(required), _) => {
-            let name =
-                definition.hardware.get(required.value.hardware).map_or("", |it| it.name.as_str());
-            let count = required.value.units;
-            format!("zone `{}` requires the moving option to use {count} of `{name}`", zone.id)
-        }
-        (Constraint::Tio, _, Some(required)) => {
-            let id = definition.tios.get(required.value).map_or("", |it| it.id.as_str());
-            format!("zone `{}` requires the option `{id}`", zone.id)
-        }
-        _ => String::new(),
-    }
-}
-
-fn place_of(activity: &PlannedActivity, part: &Part<'_>) -> String {
-    let (id, objective) = (&activity.id, &part.task_objective.id);
-    format!(
-        "the activity {id} (objective `{objective}`, {} to {})",
-        activity.x_start, activity.x_end
-    )
-}
-
-fn too_expensive(activity: &PlannedActivity, part: &Part<'_>, label: &str) -> Diagnostic {
-    let place = place_of(activity, part);
-    let message = format!("{place}, done with `{label}`, costs more than {} ms or mJ", u32::MAX);
-    let help =
-        "split the objective, or give it a higher speed or less power; quality has the same limit";
-    Diagnostic::new(part.task_objective.span.clone(), message, "too large").help(help)
-}
-
-/// Says which constraint excluded the last alternative, and what each left.
-fn emptied(definition: &Definition, activity: &PlannedActivity, part: &Part<'_>) -> Diagnostic {
-    let mut constraints: Vec<_> =
-        activity.dropped.iter().flat_map(|dropped| dropped.by.clone()).collect();
-    constraints.sort_unstable();
-    constraints.dedup();
-    let mut story = vec![format!("of {} combinations", activity.dropped.len())];
-    let mut last = part.task_objective.span.clone();
-    for count in 1..=constraints.len() {
-        let applied = &constraints[..count];
-        let excluded = |by: &[(usize, Constraint)]| by.iter().any(|one| applied.contains(one));
-        let left = activity.dropped.iter().filter(|dropped| !excluded(&dropped.by)).count();
-        let (zone, constraint) = constraints[count - 1];
-        story.push(format!("{left} are left when {}", demand(definition, zone, constraint)));
-        if left == 0 {
-            let zone = &definition.zones[zone];
-            last = match constraint {
-                Constraint::Hardware => {
-                    zone.require_hardware.as_ref().map(|required| required.span.clone())
-                }
-                Constraint::Tio => zone.require_tio.as_ref().map(|required| required.span.clone()),
-            }
-            .unwrap_or(zone.span.clone());
-            break;
-        }
-    }
-    let message = format!("{} is left without alternatives", place_of(activity, part));
-    Diagnostic::new(last, message, "excludes the last of them").help(story.join(", "))
 }

@@ -6,7 +6,7 @@
 //! them, and the reader of missions makes lengths of it: all that follows stays on the path.
 
 use super::known::{CLEARANCE_MM, MAX_PERSONS};
-use super::under::second;
+use super::under::of_robot;
 use cotama_core::units::Millimetres;
 use std::ops::Range;
 use std::sync::Arc;
@@ -52,7 +52,7 @@ impl Asked {
     /// [`FORMAT_2`](super::FORMAT_2). Values that are no names are left out: the reader of missions
     /// reports them.
     pub fn of(text: &str) -> Option<Self> {
-        let file = second(text)?;
+        let file = of_robot(text)?;
         let word = |table: &toml::Table, key: &str| Some(table.get(key)?.as_str()?.to_owned());
         let words_of = |table: &toml::Table, key: &str| {
             let all = table.get(key).and_then(|it| it.as_array());

@@ -97,7 +97,11 @@ impl Policy {
 
     /// Returns the planner and the adaptation of a mission, in words.
     pub fn words(self, mission: &Definition) -> String {
-        let planner = self.of(mission).words();
+        let planner = if mission.plans_by_wishes() {
+            "an exact search by the wishes of the mission".to_owned()
+        } else {
+            self.of(mission).words()
+        };
         match (self.rigid, self.upward) {
             (true, _) => format!("{planner}; the plan of the start is kept"),
             (false, true) => format!("{planner}; better plans when margins have grown"),

@@ -60,7 +60,7 @@ impl Planning<'_> {
     }
 
     fn planned(&self, activity: usize, id: u16) -> [u64; 2] {
-        let whole = self.of.whole[activity].get(usize::from(id));
+        let whole = self.whole(activity, usize::from(id));
         whole.map_or([0; 2], |it| it.cost.map(u64::from))
     }
 }

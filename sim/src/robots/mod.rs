@@ -102,6 +102,9 @@ pub struct Run {
     /// The drive, by its number, to whose goal nothing leads any more, and the door in its way:
     /// they ended it.
     pub blocked: Option<(usize, usize)>,
+    /// The end constraint of a mission with axes that does not hold, by its number among those of
+    /// the scenario, and by how much.
+    pub missed: Option<(usize, u64)>,
     /// The property that it broke, which ended it.
     pub violated: Option<Violation>,
 }

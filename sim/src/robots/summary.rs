@@ -37,7 +37,8 @@ impl Run {
             Outcome::Failed if self.touched.is_some() => Some(Reason::Touched),
             Outcome::Failed if self.time >= LONGEST => Some(Reason::TooLong),
             Outcome::Failed => exceeded
-                .map(|axis| Reason::LimitExceeded { axis, by: self.used[axis] - limits[axis] }),
+                .map(|axis| Reason::LimitExceeded { axis, by: self.used[axis] - limits[axis] })
+                .or_else(|| self.missed.map(|(end, by)| Reason::EndMissed { end, by })),
             Outcome::Safe => Some(match self.blocked {
                 Some((drive, door)) => Reason::Blocked { drive, door },
                 None => self.ended(),

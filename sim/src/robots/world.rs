@@ -144,6 +144,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             ended_by: None,
             fired: BTreeSet::new(),
             touched: None,
+            missed: None,
             blocked: None,
             violated: None,
         };
@@ -203,6 +204,7 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
                 self.pass_over();
             }
             if let Some(outcome) = self.end() {
+                self.run.missed = self.missed(outcome);
                 self.run.outcome = outcome;
                 break;
             }
@@ -303,7 +305,12 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
     fn within(&self, outcome: Outcome) -> Outcome {
         let limits = self.mission.scenario().limits;
         let within = self.used().iter().zip(limits).all(|(used, limit)| *used <= limit);
-        if within { outcome } else { Outcome::Failed }
+        if within && self.missed(outcome).is_none() { outcome } else { Outcome::Failed }
+    }
+
+    /// The end constraint of a mission with axes that does not hold, and by how much.
+    fn missed(&self, outcome: Outcome) -> Option<(usize, u64)> {
+        self.planning.missed(&self.progress(), outcome == Outcome::Completed)
     }
 
     /// Duration and energy used, in ms and mJ.
@@ -400,7 +407,8 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
     /// How far the mission has come.
     pub(super) fn progress(&self) -> Progress {
         let (x, t_us) = (self.drive.x(), self.now.0.saturating_mul(1_000));
-        let at = Progress { t_us, used: self.used(), ..Progress::start(x) };
+        let (used, runs) = (self.used(), self.configuration());
+        let at = Progress { t_us, used, runs, ..Progress::start(x) };
         let Some(objective) = self.mission.objectives.get(self.objective) else {
             return Progress { first: self.mission.scenario().activities.len(), ..at };
         };

@@ -69,7 +69,8 @@ impl World<'_> {
             (self.rest_of_current(), Some(self.cost_of_current()))
         };
         let (beside, used) = (self.detour_beside(), self.used());
-        Progress { first, rest, cost, beside, t_us: self.time_us, x_nm: self.x_nm, used }
+        let (t_us, x_nm) = (self.time_us, self.x_nm);
+        Progress { first, rest, cost, beside, t_us, x_nm, used, runs: None }
     }
 
     /// Returns the rest of the current activity; `None` if it is whole.
@@ -110,7 +111,7 @@ impl World<'_> {
         if R::WANTED {
             recorder.record(self.abort_record(cause, reason));
         }
-        self.ended = Some(match self.exceeded() {
+        self.ended = Some(match self.exceeded(false) {
             Some(exceeded) => (Outcome::Failed, Some(exceeded)),
             None => (Outcome::Safe, Some(reason)),
         });

@@ -13,10 +13,12 @@ impl PlanMade {
     /// The plan in words and numbers: one row an activity. `mission` must be the mission that was
     /// run.
     pub fn rows(&self, mission: &Mission) -> Vec<PlanRow> {
-        let activities = mission.scenario().activities.iter().skip(self.first_activity);
-        let rows = activities.zip(&self.choice).enumerate();
-        rows.filter_map(|(row, (activity, &id))| {
-            let alternative = activity.alternatives.get(usize::from(id))?;
+        let slowed = self.slowed_by.and_then(|it| mission.slowed(it));
+        let activities = mission.scenario().activities.iter().enumerate();
+        let rows = activities.skip(self.first_activity).zip(&self.choice).enumerate();
+        rows.filter_map(|(row, ((number, activity), &id))| {
+            let own = slowed.as_ref().and_then(|it| it.alternatives.get(number));
+            let alternative = own.unwrap_or(&activity.alternatives).get(usize::from(id))?;
             let whole = alternative.cost(activity.table().whole(alternative))?;
             let [duration, energy] = if row == 0 { self.first_cost } else { whole };
             Some(PlanRow {

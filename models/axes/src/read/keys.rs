@@ -10,11 +10,16 @@ use std::collections::BTreeSet;
 
 /// Owners of attributes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Keys {
+pub enum Keys {
+    /// Options of tasks.
     Options,
+    /// Kinds of hardware.
     Hardware,
+    /// Zones of the path.
     Zones,
+    /// The robot.
     Robot,
+    /// The laptop.
     Laptop,
 }
 

@@ -33,7 +33,7 @@ impl<'n> Reader<'n, '_> {
         }
         self.seen.push((Keys::Options, own.left()));
         let attributes = own.attributes();
-        self.mission.options.push(Tio { id, task, needs, attributes });
+        self.mission.options.push(Tio { id, task, needs, most_mm_s: None, attributes });
     }
 
     pub(super) fn objective(&mut self, node: &Node, length: i64) {
@@ -106,8 +106,16 @@ impl<'n> Reader<'n, '_> {
         let require_hardware = name.and_then(|(at, it)| hardware_of(at, it, mission, faults));
         self.seen.push((Keys::Zones, own.left()));
         let attributes = own.attributes();
-        let zone =
-            Zone { id, x_start_mm, x_end_mm, blind, require_tio, require_hardware, attributes };
+        let zone = Zone {
+            id,
+            x_start_mm,
+            x_end_mm,
+            blind,
+            require_tio,
+            require_hardware,
+            most_mm_s: None,
+            attributes,
+        };
         if let (true, Some(node)) = (self.is_strict, required) {
             self.at_odds(node.at, &zone);
         }

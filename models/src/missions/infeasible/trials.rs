@@ -3,7 +3,7 @@
 
 use super::{SHARED, STEPS};
 use crate::missions::mission::Unfolded;
-use crate::missions::scenario::{Constraint, PlannedActivity, Scenario};
+use crate::missions::scenario::{Constraint, Dropped, PlannedActivity, Scenario};
 use crate::missions::tables::Alternative;
 use cotama_core::allocation::{Allocator, Answer};
 use cotama_core::exact::{Objective, Workspace};
@@ -96,7 +96,9 @@ impl<'m> Trials<'m> {
         let planned = mission.scenario().activities.iter().zip(&unconstrained.activities);
         for ((planned, all), (_, ways)) in planned.zip(&mut self.activities) {
             // Both are in the order of the combinations, and labels are unique.
-            let mut dropped = planned.dropped.iter().peekable();
+            // What axes exclude stays excluded.
+            let can_be_lifted = |it: &&Dropped| all.labels.contains(&it.label);
+            let mut dropped = planned.dropped.iter().filter(can_be_lifted).peekable();
             for (label, alternative) in all.labels.iter().zip(&all.alternatives) {
                 if let Some(dropped) = dropped.next_if(|dropped| dropped.label == *label) {
                     constraints.extend(&dropped.by);

@@ -117,7 +117,7 @@ pub struct Fields<'t> {
     most_entries: usize,
     /// The value that `format` must have; empty in tables below the root.
     format: &'static str,
-    asked: Vec<&'static str>,
+    asked: Vec<&'t str>,
     missing: Vec<&'static str>,
 }
 

@@ -1,18 +1,20 @@
 //! Reading a mission file, section by section.
 
-use super::entry::{Entry, Names, ids};
+use super::entry::{Entry, Names};
 use super::faults;
-use super::fields::{Fields, Reported};
+use super::fields::Fields;
+use super::form::Form;
 use super::ground::Ground;
-use super::path::{objective, one_after_the_other, task, zone};
+use super::options::{hardware, items, standing, tio};
+use super::path::{objective, one_after_the_other, zone};
 use super::people;
 use super::supervision;
-use crate::missions::definition::{AXES, Definition, Hardware, Robot, Standing, Task, Tio, Zone};
-use crate::missions::diagnostic::{Diagnostic, Spanned};
+use crate::missions::definition::{AXES, Definition, Hardware, Robot, Tio, Zone};
+use crate::missions::diagnostic::Diagnostic;
 use crate::missions::faults::PowerError;
 use crate::missions::known::{
-    AT_LEAST_ZERO, ENERGIES, NAME_LENGTHS, NEEDED_UNITS, OBJECTIVES, POSITIVE, QUALITIES,
-    ROUNDINGS, SPEEDS, UNITS,
+    AT_LEAST_ZERO, ATTRIBUTES, ENERGIES, NAME_LENGTHS, NO_LIMIT, OBJECTIVES, POSITIVE, ROUNDINGS,
+    SPEEDS,
 };
 use crate::missions::people::People;
 use crate::missions::terms::{MotionPower, PlannedFor, harmless_speed};
@@ -20,8 +22,7 @@ use crate::missions::under::Under;
 use crate::missions::way::Way;
 use crate::names::quoted;
 use crate::robots::{EMBEDDED, RobotFile};
-use cotama_core::hardware::{Equipment, MAX_KINDS};
-use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
+use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Milliwatts};
 use std::ops::Range;
 
 /// Reads the whole file of a mission whose robot has a file of its own: body, hardware and options
@@ -30,7 +31,9 @@ pub(in crate::missions) fn definition_of(
     mut root: Fields<'_>,
     robot: Option<&RobotFile>,
     way: Option<&Way>,
+    axed: bool,
 ) -> Option<Definition> {
+    let form = Form { supervised: true, axed };
     let name = name(&mut root);
     let named = root.text("robot");
     if let (None, Some(named)) = (robot, &named) {
@@ -43,20 +46,27 @@ pub(in crate::missions) fn definition_of(
         Some(_) => None,
         None => root.integer("path_length_mm", POSITIVE).map(Millimetres),
     };
-    let limits = root.table("limits").and_then(limits);
+    let limits = limits_or_axes(&mut root, axed);
     let planned_for = root.optional_table("plan").map(|plan| plan.and_then(planned_for));
-    let Some(of) = of else {
+    let Some(mut of) = of else {
         root.abandon();
         return None;
     };
     let entry = |it: &Hardware| Entry { id: it.name.clone(), item: Some(it.clone()) };
     let hardware: Vec<_> = of.hardware.iter().map(entry).collect();
-    let mut tios: Vec<_> = all(root.tables("tio", false), |it| tio(it, &hardware, true));
+    let mut tios: Vec<_> = all(root.tables("tio", false), |it| tio(it, &hardware, form));
+    if axed {
+        configurations(&mut root, &mut of.tios, &mut of.hardware);
+        if let Ok(Some(mut fields)) = root.optional_table("attributes") {
+            of.body.own = fields.numbers(&ATTRIBUTES);
+            fields.finish();
+        }
+    }
     tios.extend(of.tios.into_iter().map(|it| Entry { id: it.id.clone(), item: Some(it) }));
     let objectives =
         all(root.tables("objective", true), |table| objective(table, ground.as_mut(), &tios, true));
     let path_length = said.or_else(|| ground.as_ref()?.length());
-    let read = |table| zone(table, path_length, (ground.as_ref(), true), &hardware, &tios);
+    let read = |table| zone(table, path_length, (ground.as_ref(), form), &hardware, &tios);
     let zones = all(root.tables("zone", false), read);
     one_after_the_other(&root, path_length, &objectives);
     let names = Names {
@@ -91,6 +101,7 @@ pub(in crate::missions) fn definition_of(
         way: way.filter(|_| ground.is_some()).cloned(),
         people: people?,
         run,
+        axes: None,
     })
 }
 
@@ -107,25 +118,28 @@ fn in_all_parts(zones: &[Zone], errors: &mut Vec<PowerError>) {
 }
 
 /// Reads the whole file.
-pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition> {
+pub(in crate::missions) fn definition(mut root: Fields<'_>, axed: bool) -> Option<Definition> {
+    let form = Form { supervised: false, axed };
     // All else that such a file says is another form of the same mistake.
     if supervision::refuse(&root) {
         return None;
     }
     let name = name(&mut root);
     let path_length = root.integer("path_length_mm", POSITIVE).map(Millimetres);
-    let limits = root.table("limits").and_then(limits);
+    let limits = limits_or_axes(&mut root, axed);
     if let Ok(Some(table)) = root.optional_table("rounding") {
         rounding(table);
     }
     let planned_for = root.optional_table("plan").map(|plan| plan.and_then(planned_for));
-    let robot = root.table("robot").and_then(robot);
+    let robot = root.table("robot").and_then(|it| robot(it, form));
     let motion_power = root.table("motion_power").and_then(motion_power);
-    let hardware =
-        root.table("hardware").and_then(hardware).unwrap_or_else(|| vec![Entry::unreadable()]);
-    let mut tios = all(root.tables("tio", true), |table| tio(table, &hardware, false));
+    let hardware = root
+        .table("hardware")
+        .and_then(|it| hardware(it, form))
+        .unwrap_or_else(|| vec![Entry::unreadable()]);
+    let mut tios = all(root.tables("tio", true), |table| tio(table, &hardware, form));
     standing(&mut root, &mut tios);
-    let read = |table| zone(table, path_length, (None, false), &hardware, &tios);
+    let read = |table| zone(table, path_length, (None, form), &hardware, &tios);
     let zones = all(root.tables("zone", false), read);
     let objectives =
         all(root.tables("objective", true), |table| objective(table, None, &tios, false));
@@ -153,6 +167,7 @@ pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition
         way: None,
         people: People::default(),
         run: run?,
+        axes: None,
     })
 }
 
@@ -164,10 +179,6 @@ fn all<'t, T, I: IntoIterator<Item = Entry<T>>>(
 ) -> Vec<Entry<T>> {
     let Some(tables) = tables else { return vec![Entry::unreadable()] };
     tables.into_iter().flat_map(read).collect()
-}
-
-fn items<T>(entries: &[Entry<T>]) -> impl Iterator<Item = &T> {
-    entries.iter().filter_map(|entry| entry.item.as_ref())
 }
 
 fn complete<T>(entries: Vec<Entry<T>>) -> Option<Vec<T>> {
@@ -199,6 +210,43 @@ fn name(root: &mut Fields<'_>) -> Option<String> {
         return None;
     }
     Some(name.value)
+}
+
+/// Reads the limits; those of a mission with axes follow from its constraints, which are read
+/// afterwards.
+fn limits_or_axes(root: &mut Fields<'_>, axed: bool) -> Option<([u64; 2], [usize; 2])> {
+    if !axed {
+        return root.table("limits").and_then(limits);
+    }
+    for key in ["laptop", "detection", "axis", "constraint", "ask"] {
+        root.knows(key);
+    }
+    if root.has("limits") {
+        root.knows("limits");
+        let message = "limits of a mission with axes are constraints";
+        let it = Diagnostic::new(root.span_of("limits"), message, "not here");
+        root.report(it.help("write a [[constraint]] with kind = \"end\" on each sum"));
+    }
+    Some(([NO_LIMIT; 2], [0, 1]))
+}
+
+/// Reads attributes of the robot's configurations, which are options and hardware of the mission.
+fn configurations(root: &mut Fields<'_>, tios: &mut [Tio], hardware: &mut [Hardware]) {
+    let Ok(Some(table)) = root.optional_table("configuration") else { return };
+    for (name, fields) in table.named_tables().unwrap_or_default() {
+        let Some(mut fields) = fields else { continue };
+        let names: Vec<_> = tios.iter().map(|it| it.id.clone()).collect();
+        let names = names.iter().map(String::as_str);
+        let at = fields.index_of(&name, "configuration of the robot", names);
+        let numbers = fields.numbers(&ATTRIBUTES);
+        fields.finish();
+        if let Some(tio) = at.and_then(|at| tios.get_mut(at)) {
+            for it in hardware.iter_mut().filter(|it| it.name == tio.id) {
+                it.own = numbers.clone();
+            }
+            tio.own = numbers;
+        }
+    }
 }
 
 fn limits(mut limits: Fields<'_>) -> Option<([u64; 2], [usize; 2])> {
@@ -247,12 +295,21 @@ fn planned_for(mut plan: Fields<'_>) -> Option<PlannedFor> {
     found.and_then(|at| OBJECTIVES.get(at)).map(|it| it.1)
 }
 
-fn robot(mut robot: Fields<'_>) -> Option<Robot> {
+fn robot(mut robot: Fields<'_>, form: Form) -> Option<Robot> {
     let mass_g = robot.integer("mass_g", POSITIVE);
     let speed_max = robot.integer("speed_max_mm_s", SPEEDS).map(MillimetresPerSecond);
-    let impact_energy_max = robot.integer("impact_energy_max_mj", POSITIVE).map(Millijoules);
+    let is_free = form.axed && !robot.has("impact_energy_max_mj");
+    let impact_energy_max = if is_free {
+        // A constraint says what is harmless, if anything is to.
+        robot.knows("impact_energy_max_mj");
+        Some(Millijoules(u64::MAX))
+    } else {
+        robot.integer("impact_energy_max_mj", POSITIVE).map(Millijoules)
+    };
+    let step = if form.axed { robot.optional_integer("speed_step_mm_s", SPEEDS) } else { Ok(None) };
     let stated = robot.optional_integer("speed_harmless_mm_s", SPEEDS);
-    let computed = mass_g.zip(impact_energy_max).map(|(mass, energy)| harmless_speed(mass, energy));
+    let harmless = || Some(harmless_speed(mass_g?, impact_energy_max?));
+    let computed = if is_free { speed_max } else { harmless() };
     if let Some(computed) = computed {
         let stated = stated.as_ref().ok().copied().flatten().map(MillimetresPerSecond);
         if computed == MillimetresPerSecond::ZERO {
@@ -272,6 +329,10 @@ fn robot(mut robot: Fields<'_>) -> Option<Robot> {
             );
         }
     }
+    let mut own = form.numbers(&mut robot);
+    if let Ok(Some(step)) = step {
+        own.add("speed_step_mm_s", robot.span_of("speed_step_mm_s"), step);
+    }
     robot.finish();
     let speed_harmless = stated.ok()?.map_or(computed?, MillimetresPerSecond);
     Some(Robot {
@@ -279,6 +340,7 @@ fn robot(mut robot: Fields<'_>) -> Option<Robot> {
         speed_max: speed_max?,
         impact_energy_max: impact_energy_max?,
         speed_harmless,
+        own,
     })
 }
 
@@ -305,145 +367,4 @@ fn motion_power(mut fields: Fields<'_>) -> Option<MotionPower> {
     }
     fields.finish();
     power
-}
-
-fn hardware(fields: Fields<'_>) -> Option<Vec<Entry<Hardware>>> {
-    let mut kinds = Vec::new();
-    for (index, (name, table)) in fields.named_tables()?.into_iter().enumerate() {
-        let item = table.and_then(|mut table| {
-            if index == MAX_KINDS {
-                let message = format!("more than {MAX_KINDS} kinds of hardware");
-                let help = "put kinds that are always switched together into one";
-                table
-                    .report(Diagnostic::new(name.span.clone(), message, "one too many").help(help));
-            }
-            let units = table.integer("units", UNITS);
-            let power = table.integer("power_mw", AT_LEAST_ZERO).map(Milliwatts);
-            table.finish();
-            Some(Hardware { name: name.value.clone(), units: units?, power: power? })
-        });
-        kinds.push(Entry { id: name.value, item });
-    }
-    Some(kinds)
-}
-
-fn tio(mut fields: Fields<'_>, hardware: &[Entry<Hardware>], supervised: bool) -> Entry<Tio> {
-    let id = fields.id("id");
-    let task = fields.text("task").and_then(|name| task(&fields, &name));
-    let needs = if supervised && !fields.has("needs") {
-        Some(Equipment::NONE)
-    } else {
-        needs(&mut fields, hardware)
-    };
-    if let (true, Some(task @ (Task::Move | Task::Turn | Task::Detect | Task::Localise))) =
-        (supervised, task)
-    {
-        let message = format!("`{}` is done by the configurations of the robot", task.name());
-        let it = Diagnostic::new(fields.span_of("task"), message, "not here");
-        fields.report(it.help(
-            "leave the option out; `RCV`, `DLV`, `WAI` and tasks of your own can stand here",
-        ));
-    }
-    let speed_max = fields.optional_integer("speed_max_mm_s", SPEEDS);
-    let quality_per_dm = fields.optional_integer("quality_per_dm", QUALITIES);
-    let quality = fields.optional_integer("quality", QUALITIES);
-    let standing = own_standing(&mut fields, task);
-    fields.finish();
-    let Some(Spanned { value: id, span }) = id else { return Entry::unreadable() };
-    let complete = || {
-        Some(Tio {
-            id: id.clone(),
-            span,
-            task: task?,
-            needs: needs?,
-            speed_max: speed_max.ok()?.map(MillimetresPerSecond),
-            quality_per_dm: quality_per_dm.ok()?.unwrap_or(0),
-            quality: quality.ok()?.unwrap_or(0),
-            standing: standing.ok()?,
-        })
-    };
-    Entry { item: complete(), id }
-}
-
-/// Reads time and power of an option that gives them itself: one that receives, delivers, waits, or
-/// does a task of the user's own.
-fn own_standing(fields: &mut Fields<'_>, task: Option<Task>) -> Result<Option<Standing>, Reported> {
-    if !matches!(task, Some(Task::Receive | Task::Deliver | Task::Wait | Task::Own(_))) {
-        return Ok(None);
-    }
-    let duration = fields.integer("duration_ms", POSITIVE).map(Millis);
-    let power = fields.integer("power_mw", AT_LEAST_ZERO).map(Milliwatts);
-    let (duration, power) = duration.zip(power).ok_or(Reported)?;
-    Ok(Some(Standing { duration, power }))
-}
-
-fn needs(fields: &mut Fields<'_>, hardware: &[Entry<Hardware>]) -> Option<Equipment> {
-    let entries = fields.table("needs")?.named_integers::<u8>(&NEEDED_UNITS)?;
-    let mut needs = Some(Equipment::NONE);
-    for (name, count) in entries {
-        let index = fields.index_of(&name, "hardware", ids(hardware));
-        let kind = index.and_then(|index| hardware.get(index)?.item.as_ref());
-        if let Some(kind) = kind.filter(|kind| count > kind.units) {
-            let message =
-                format!("needs {count} of `{}`, but the robot has only {}", kind.name, kind.units);
-            let help = format!("write {} or less, or give the robot more units", kind.units);
-            fields.report(Diagnostic::new(name.span, message, "more than there are").help(help));
-        }
-        needs = needs.zip(index).and_then(|(needs, index)| needs.with(index, count));
-    }
-    needs
-}
-
-/// Reads `[fixed]`, needed by the options that do not travel, and completes these options.
-fn standing(root: &mut Fields<'_>, tios: &mut [Entry<Tio>]) {
-    let has = |task| items(tios).any(|tio| tio.task == task);
-    let (turns, detects) = (has(Task::Turn), has(Task::Detect));
-    let table = if turns || detects {
-        root.table("fixed")
-    } else {
-        root.optional_table("fixed").ok().flatten()
-    };
-    let Some(mut fixed) = table else { return };
-    if turns || fixed.has("turn_ms") || fixed.has("turn_power_mw") {
-        let duration = fixed.integer("turn_ms", POSITIVE).map(Millis);
-        let power = fixed.integer("turn_power_mw", AT_LEAST_ZERO).map(Milliwatts);
-        let standing = duration.zip(power).map(|(duration, power)| Standing { duration, power });
-        for tio in tios
-            .iter_mut()
-            .filter_map(|entry| entry.item.as_mut())
-            .filter(|tio| tio.task == Task::Turn)
-        {
-            tio.standing = standing;
-        }
-    }
-    if detects || fixed.has("detect_ms") || fixed.has("detect_power_mw") {
-        let duration = fixed.integer("detect_ms", POSITIVE).map(Millis);
-        let powers =
-            fixed.table("detect_power_mw").and_then(|table| table.named_integers(&AT_LEAST_ZERO));
-        for (name, power) in powers.as_deref().unwrap_or_default() {
-            let other = |entry: &Entry<Tio>| {
-                entry.item.as_ref().is_some_and(|tio| tio.task != Task::Detect)
-            };
-            let ids = tios.iter().filter(|entry| !other(entry)).map(|entry| entry.id.as_str());
-            fixed.index_of(name, "detecting option", ids);
-            let standing =
-                duration.map(|duration| Standing { duration, power: Milliwatts(*power) });
-            for tio in tios
-                .iter_mut()
-                .filter_map(|entry| entry.item.as_mut())
-                .filter(|tio| tio.id == name.value)
-            {
-                tio.standing = standing;
-            }
-        }
-        let without = |tio: &&Tio| tio.task == Task::Detect && tio.standing.is_none();
-        for tio in items(tios).filter(|_| powers.is_some() && duration.is_some()).filter(without) {
-            let message = format!("the option `{}` has no detection power", tio.id);
-            let help = format!("add `{}` to `detect_power_mw` in [fixed]", tio.id);
-            fixed.report(
-                Diagnostic::new(tio.span.clone(), message, "not in `detect_power_mw`").help(help),
-            );
-        }
-    }
-    fixed.finish();
 }

@@ -3,10 +3,12 @@
 mod entry;
 mod faults;
 pub(crate) mod fields;
+mod form;
 mod ground;
 mod limits;
 mod mission;
 mod moments;
+mod options;
 mod path;
 mod people;
 mod recorded;

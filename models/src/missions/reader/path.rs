@@ -2,6 +2,7 @@
 
 use super::entry::{Entry, ids};
 use super::fields::{Fields, Reported};
+use super::form::Form;
 use super::ground::{Ground, Span, parts, without_floor};
 use super::supervision;
 use crate::missions::definition::{
@@ -17,7 +18,7 @@ use std::ops::Range;
 pub(super) fn zone(
     mut fields: Fields<'_>,
     path_length: Option<Millimetres>,
-    (ground, is_of_robot): (Option<&Ground<'_>>, bool),
+    (ground, form): (Option<&Ground<'_>>, Form),
     hardware: &[Entry<Hardware>],
     tios: &[Entry<Tio>],
 ) -> Vec<Entry<Zone>> {
@@ -27,7 +28,7 @@ pub(super) fn zone(
         let name = of.ok().flatten().or_else(|| id.clone());
         name.map(|it| ground.spans(&fields, &it))
     } else {
-        if ground.is_none() && is_of_robot {
+        if ground.is_none() && form.supervised {
             without_floor(&mut fields, &["on_floor"]);
         }
         span(&mut fields, path_length).map(|it| vec![it])
@@ -41,6 +42,8 @@ pub(super) fn zone(
             Ok(Some(Spanned { value, span: name.span }))
         }
     });
+    let blind = if form.axed { blind(&mut fields, hardware) } else { Some(Vec::new()) };
+    let own = form.numbers(&mut fields);
     fields.finish();
     let Some(Spanned { value: id, span }) = id else { return vec![Entry::unreadable()] };
     let complete = || {
@@ -52,12 +55,20 @@ pub(super) fn zone(
             speed_max: speed_max.ok()?.map(MillimetresPerSecond),
             require_hardware: require_hardware.ok()?,
             require_tio: require_tio.ok()?,
+            blind: blind.clone()?,
+            own: own.clone(),
         })
     };
     match complete().zip(spans) {
         Some((zone, spans)) if !spans.is_empty() => parts(&zone, spans),
         _ => vec![Entry { id, item: None }],
     }
+}
+
+/// Reads the kinds of hardware that see no obstacles in a zone.
+fn blind(fields: &mut Fields<'_>, hardware: &[Entry<Hardware>]) -> Option<Vec<usize>> {
+    let names = fields.optional_texts("blind").ok()?;
+    names.iter().map(|it| fields.index_of(it, "hardware", ids(hardware))).collect()
 }
 
 /// Reads the stretch of the path that a zone is.

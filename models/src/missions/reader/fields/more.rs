@@ -2,6 +2,8 @@
 
 use super::{Fields, Reported, Sink};
 use crate::missions::diagnostic::Spanned;
+use crate::missions::numbers::Numbers;
+use crate::names::nearest;
 use std::ops::RangeInclusive;
 use toml::de::DeValue;
 
@@ -26,6 +28,29 @@ impl<'t> Fields<'t> {
     pub(crate) fn has_unknown(&self) -> bool {
         let mut keys = self.entries.keys().map(|it| it.get_ref().as_ref());
         keys.any(|it| !self.asked.contains(&it) && !super::DOCUMENTATION.contains(&it))
+    }
+
+    /// Takes the integers that nothing has asked for, in the order of the file: attributes of the
+    /// file's own. One whose name is nearly that of a key which is not here stays unknown.
+    pub(crate) fn numbers(&mut self, range: &RangeInclusive<i64>) -> Numbers {
+        let mut numbers = Vec::new();
+        let mut all: Vec<_> = self.entries.iter().collect();
+        all.sort_by_key(|(key, _)| key.span().start);
+        for (key, node) in all {
+            let name = key.get_ref().as_ref();
+            let absent = self.asked.iter().copied().filter(|asked| !self.has(asked));
+            let is_own = matches!(node.get_ref(), DeValue::Integer(_) | DeValue::Float(_))
+                && !self.asked.contains(&name)
+                && nearest(name, absent).is_none();
+            if !is_own {
+                continue;
+            }
+            self.asked.push(name);
+            if let Some(value) = self.integer_of(name, node, range) {
+                numbers.push((Spanned { value: name.to_owned(), span: key.span() }, value));
+            }
+        }
+        Numbers(numbers)
     }
 
     /// The digits of a number, with or without decimals, that may be left out.
