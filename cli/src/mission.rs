@@ -113,6 +113,14 @@ pub(crate) fn load_for(
     if limits == [None, None] { Ok(mission) } else { Ok(mission.with_limits(limits)?) }
 }
 
+/// Refuses options that say what plans are for, of a mission whose wishes say it.
+pub(crate) fn beside_wishes(mission: &Mission, given: &[(&str, bool)]) -> Result<(), Failure> {
+    let found = given.iter().find(|it| it.1).filter(|_| mission.plans_by_wishes());
+    let Some((option, _)) = found else { return Ok(()) };
+    let message = format!("{option}: `ask` of `{}` says what its plans are for", mission.name);
+    Err(Failure::new(message).help(format!("leave {option} out, or `ask`")))
+}
+
 /// Returns the objective of a plan: the wanted one, else that of the mission file, else quality.
 /// The allocator of PANORAMA has a rule and no objective, so wanting it means the paper's.
 pub(crate) fn objective(

@@ -245,6 +245,13 @@ fn options(args: &RunArgs, mission: &Mission) -> Result<Options, Failure> {
         return Err(Failure::new(message).help("add --fidelity plane"));
     }
     let allocator = args.planning.allocator;
+    let given = [
+        ("--objective", args.objective.is_some()),
+        ("--allocator", allocator.is_some()),
+        ("--upward", args.upward),
+        ("--margins", args.margins.is_some()),
+    ];
+    mission::beside_wishes(mission, &given)?;
     let objective = mission::objective(args.objective, allocator, mission);
     let planner = mission::planner(objective, allocator, args.planning.steps)?;
     Ok(Options {

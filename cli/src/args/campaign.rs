@@ -187,6 +187,12 @@ impl CampaignArgs {
     /// # Errors
     /// A [`Failure`] where steps are given and nothing is searched.
     pub(crate) fn policy_for(&self, mission: &Mission) -> Result<Policy, Failure> {
+        let given = [
+            ("--objective", self.objective.is_some()),
+            ("--allocator", self.allocator.is_some()),
+            ("--margins", self.margins.is_some()),
+        ];
+        mission::beside_wishes(mission, &given)?;
         let policy = self.policy().policy(mission.is_supervised(), self.steps);
         let policy = Policy { fidelity: self.fidelity.into(), ..policy };
         if policy.planner.is_some() {
