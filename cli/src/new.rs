@@ -43,13 +43,54 @@ macro_rules! template {
     };
 }
 
-/// Templates of one file: its text and the name in it.
-const MISSION: (&str, &str) = (include_str!("../templates/mission.toml"), "my-mission");
-const AXES: (&str, &str) = (include_str!("../templates/axes.toml"), "my-axes");
-const ROBOT: (&str, &str) = (include_str!("../templates/robot.toml"), "my-robot");
-const TEAM: (&str, &str) = (include_str!("../templates/team.toml"), "my-team");
-const FLOOR: (&str, &str) = (include_str!("../templates/floor.toml"), "my-floor");
-const FMECA: (&str, &str) = (include_str!("../templates/fmeca.toml"), "my-fmeca");
+/// A template of one file.
+struct OneFile {
+    /// Says in words what it is.
+    what: &'static str,
+    text: &'static str,
+    /// The name in the text.
+    name: &'static str,
+    /// Commands to go on with, in which `FILE` stands for the file.
+    next: [&'static str; 2],
+}
+
+static MISSION: OneFile = OneFile {
+    what: "a mission",
+    text: include_str!("../templates/mission.toml"),
+    name: "my-mission",
+    next: ["plan FILE", "run FILE"],
+};
+static AXES: OneFile = OneFile {
+    what: "a mission with axes",
+    text: include_str!("../templates/axes.toml"),
+    name: "my-axes",
+    next: ["plan FILE", "explain FILE"],
+};
+static ROBOT: OneFile = OneFile {
+    what: "a robot",
+    text: include_str!("../templates/robot.toml"),
+    name: "my-robot",
+    next: ["check FILE", "export FILE --format svg"],
+};
+static TEAM: OneFile = OneFile {
+    what: "a team",
+    text: include_str!("../templates/team.toml"),
+    name: "my-team",
+    next: ["run FILE", "assign FILE"],
+};
+static FLOOR: OneFile = OneFile {
+    what: "a floor",
+    text: include_str!("../templates/floor.toml"),
+    name: "my-floor",
+    next: ["floor FILE", "floor FILE --from left --to right"],
+};
+static FMECA: OneFile = OneFile {
+    what: "an FMECA",
+    text: include_str!("../templates/fmeca.toml"),
+    name: "my-fmeca",
+    next: ["fmeca FILE", "fmeca FILE --diagnosability"],
+};
+
 static NET: Template = template!("my-net" in "net", taken: &["net"]);
 static SYSTEM: Template =
     template!("my-system" in "system", taken: &["net", "system", "link", "drive", "state"]);
@@ -65,6 +106,31 @@ static BOARD: Template = Template {
     ],
     taken: &["net"],
 };
+
+/// What a kind of project is made of.
+#[derive(Clone, Copy)]
+enum Made {
+    File(&'static OneFile),
+    Crate(&'static Template),
+    /// A crate beside the one that it plays.
+    Board,
+}
+
+impl NewKind {
+    fn made(self) -> Made {
+        match self {
+            Self::Mission => Made::File(&MISSION),
+            Self::Axes => Made::File(&AXES),
+            Self::Robot => Made::File(&ROBOT),
+            Self::Team => Made::File(&TEAM),
+            Self::Floor => Made::File(&FLOOR),
+            Self::Fmeca => Made::File(&FMECA),
+            Self::Net => Made::Crate(&NET),
+            Self::System => Made::Crate(&SYSTEM),
+            Self::Board => Made::Board,
+        }
+    }
+}
 
 /// Path of the sources in the templates, seen from the new crate.
 const SOURCES: &str = "../cotama";
@@ -102,51 +168,25 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
         let message = "--floor is for missions of a robot: it says what the mission goes over";
         return Err(Failure::new(message).help("add `--robot`, or leave it out"));
     }
-    let (files, next) = match args.kind {
-        NewKind::Mission
-        | NewKind::Axes
-        | NewKind::Robot
-        | NewKind::Team
-        | NewKind::Floor
-        | NewKind::Fmeca => {
-            let what = one_file(args.kind);
+    let (files, next) = match args.kind.made() {
+        Made::File(template) => {
             if args.sources.is_some() {
-                let message = format!("--sources is for crates: {what} is one file");
+                let message = format!("--sources is for crates: {} is one file", template.what);
                 return Err(Failure::new(message).help("leave it out"));
             }
             let file = path.with_file_name(format!("{name}.toml"));
             refuse_to_replace(&file)?;
-            let (text, own) = match args.kind {
-                NewKind::Mission => MISSION,
-                NewKind::Axes => AXES,
-                NewKind::Robot => ROBOT,
-                NewKind::Team => TEAM,
-                NewKind::Floor => FLOOR,
-                _ => FMECA,
-            };
             let text = match &args.robot {
                 Some(robot) => mission::text(robot, args.floor.as_deref(), path.parent())?,
-                None => text.to_owned(),
+                None => template.text.to_owned(),
             };
-            output::file(&file, text.replace(own, name).as_bytes())?;
+            output::file(&file, text.replace(template.name, name).as_bytes())?;
             let shown = quoted(&file.display().to_string());
-            let [first, second] = match args.kind {
-                NewKind::Mission => ["plan", "run"].map(|it| format!("{it} {shown}")),
-                NewKind::Axes => ["plan", "explain"].map(|it| format!("{it} {shown}")),
-                NewKind::Team => ["run", "assign"].map(|it| format!("{it} {shown}")),
-                NewKind::Robot => {
-                    [format!("check {shown}"), format!("export {shown} --format svg")]
-                }
-                NewKind::Floor => {
-                    ["", " --from left --to right"].map(|it| format!("floor {shown}{it}"))
-                }
-                _ => ["", " --diagnosability"].map(|it| format!("fmeca {shown}{it}")),
-            };
+            let [first, second] = template.next.map(|it| it.replace("FILE", &shown));
             let next = format!("{NAME}cotama {first}{NAME:#}, {NAME}cotama {second}{NAME:#}");
             (vec![file], Some(next))
         }
-        NewKind::Net | NewKind::System => {
-            let template = if args.kind == NewKind::Net { &NET } else { &SYSTEM };
+        Made::Crate(template) => {
             refuse_to_replace(path)?;
             let sources = Sources::find(folder, args.sources.as_deref())?;
             let next = quoted(&path.display().to_string());
@@ -154,7 +194,7 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
             sources.noted(folder, screen);
             (files, sources.with(&format!("cd {next} && cargo test")))
         }
-        NewKind::Board => {
+        Made::Board => {
             let net = path.join("Cargo.toml");
             if !net.is_file() {
                 let message = format!("{}: there is no such crate", path.display());
@@ -301,53 +341,35 @@ impl Sources {
     }
 }
 
-fn is_crate(kind: NewKind) -> bool {
-    matches!(kind, NewKind::Net | NewKind::System | NewKind::Board)
-}
-
-/// Returns a kind that is one file, in words.
-const fn one_file(kind: NewKind) -> &'static str {
-    match kind {
-        NewKind::Axes => "a mission with axes",
-        NewKind::Robot => "a robot",
-        NewKind::Team => "a team",
-        NewKind::Floor => "a floor",
-        NewKind::Fmeca => "an FMECA",
-        _ => "a mission",
-    }
-}
-
 /// A mission and an FMECA are called as their files; a crate as a module of Rust, where `-` becomes
 /// `_`.
 fn check_name(kind: NewKind, name: &str) -> Result<(), Failure> {
-    let is_crate = is_crate(kind);
+    let taken = match kind.made() {
+        Made::File(_) => None,
+        Made::Crate(template) => Some(template.taken),
+        Made::Board => Some(BOARD.taken),
+    };
+    let is_crate = taken.is_some();
     let fits = |c: char| c.is_ascii_alphanumeric() && !(is_crate && c.is_ascii_uppercase());
     let begins = |c: char| c.is_ascii_alphabetic() && fits(c);
     let all = name.chars().all(|c| fits(c) || c == '-' || c == '_');
     if name.len() > 64 || !name.starts_with(begins) || !all {
-        let what = if is_crate { "a crate" } else { one_file(kind) };
+        let what = match kind.made() {
+            Made::File(template) => template.what,
+            Made::Crate(_) | Made::Board => "a crate",
+        };
         let letters = if is_crate { "lower-case letters" } else { "letters" };
         let message = format!(
             "`{}` is no name for {what}: it is made of {letters} from a to z, digits, `-` and `_`, \
              begins with a letter, and has at most 64 of them",
             name.escape_debug()
         );
-        return Err(advised(Failure::new(message), kind, name));
+        return Err(advised(Failure::new(message), is_crate, name));
     }
-    let module = name.replace('-', "_");
-    let taken = match kind {
-        NewKind::Mission
-        | NewKind::Axes
-        | NewKind::Robot
-        | NewKind::Team
-        | NewKind::Floor
-        | NewKind::Fmeca => {
-            return Ok(());
-        }
-        NewKind::Net => NET.taken,
-        NewKind::System => SYSTEM.taken,
-        NewKind::Board => BOARD.taken,
+    let Some(taken) = taken else {
+        return Ok(());
     };
+    let module = name.replace('-', "_");
     if RESERVED.split(' ').chain(taken.iter().copied()).any(|it| it == module) {
         return Err(Failure::new(format!(
             "`{name}` is a name that Rust or the crate itself needs"
@@ -358,11 +380,11 @@ fn check_name(kind: NewKind, name: &str) -> Result<(), Failure> {
 }
 
 /// The same with the nearest name that fits.
-fn advised(failure: Failure, kind: NewKind, name: &str) -> Failure {
+fn advised(failure: Failure, is_crate: bool, name: &str) -> Failure {
     let near = name.strip_suffix(".toml").unwrap_or(name);
     let near: String = near
         .chars()
-        .map(|c| if is_crate(kind) { c.to_ascii_lowercase() } else { c })
+        .map(|c| if is_crate { c.to_ascii_lowercase() } else { c })
         .map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '-' })
         .collect();
     let near = near.trim_matches(|c: char| !c.is_ascii_alphanumeric());

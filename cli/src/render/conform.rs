@@ -2,7 +2,7 @@
 
 use super::numbers::{count, milli};
 use super::style::{BAD, FAINT, GOOD, HEADING, NAME};
-use super::{described, visible, wrapped};
+use super::{named, visible, wrapped};
 use crate::answers::conform::{AllowedRow, ConformAnswer, MayFireRow};
 use std::fmt::Write;
 
@@ -74,14 +74,5 @@ fn window(it: &MayFireRow) -> String {
 
 /// A title and names; nothing without names.
 fn line(title: &str, names: impl Iterator<Item = String>, width: usize) -> String {
-    let mut names: Vec<_> = names.map(|it| visible(&it)).collect();
-    let more = names.len().saturating_sub(SHOWN);
-    names.truncate(SHOWN);
-    if more > 0 {
-        names.push(format!("and {more} more"));
-    }
-    if names.is_empty() {
-        return String::new();
-    }
-    described(title, 21, FAINT, &names.join(", "), width)
+    named(title, 21, names, SHOWN, width)
 }

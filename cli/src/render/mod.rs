@@ -85,6 +85,26 @@ pub(crate) fn described(
     format!("  {style}{term}{style:#}{space}  {beside}\n")
 }
 
+/// A title in a column of this many characters, and at most so many names; nothing without names.
+pub(crate) fn named(
+    title: &str,
+    column: usize,
+    names: impl Iterator<Item = String>,
+    most: usize,
+    width: usize,
+) -> String {
+    let mut names: Vec<_> = names.map(|it| visible(&it)).collect();
+    let more = names.len().saturating_sub(most);
+    names.truncate(most);
+    if more > 0 {
+        names.push(format!("and {more} more"));
+    }
+    if names.is_empty() {
+        return String::new();
+    }
+    described(title, column, style::FAINT, &names.join(", "), width)
+}
+
 #[cfg(test)]
 mod tests {
     use super::style::PLAIN;

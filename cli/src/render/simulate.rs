@@ -3,7 +3,7 @@
 use super::numbers::{count, grouped, milli};
 use super::style::{FAINT, GOOD, HEADING, NAME, NOTICE, PLAIN};
 use super::table::{Cell, Table};
-use super::{described, visible, wrapped};
+use super::{named, visible, wrapped};
 use crate::answers::model::{RefusalReason, SimulateAnswer, StepRow, TokensRow};
 use cotama_core::net::{Net, Role};
 use std::collections::BTreeSet;
@@ -161,14 +161,5 @@ fn state(answer: &SimulateAnswer, net: &Net<'_>, width: usize, numbered: bool) -
 
 /// A title and names; nothing without names.
 fn line(title: &str, names: impl Iterator<Item = String>, width: usize) -> String {
-    let mut names: Vec<_> = names.map(|it| visible(&it)).collect();
-    let more = names.len().saturating_sub(SHOWN);
-    names.truncate(SHOWN);
-    if more > 0 {
-        names.push(format!("and {more} more"));
-    }
-    if names.is_empty() {
-        return String::new();
-    }
-    described(title, 22, FAINT, &names.join(", "), width)
+    named(title, 22, names, SHOWN, width)
 }
