@@ -44,7 +44,7 @@ fn every_mission_and_every_file_of_faults_is_as_its_schema_says() {
         ("delivery".to_owned(), folder.cotama(&["show", "delivery"]).stdout),
         ("template".to_owned(), folder.read("template.toml")),
     ];
-    let shuttle = root.join("sim/tests/common/shuttle.toml");
+    let shuttle = root.join("sim/tests/runs/common/shuttle.toml");
     files.push(("shuttle".to_owned(), std::fs::read_to_string(shuttle).unwrap()));
     for page in std::fs::read_dir(root.join("docs")).unwrap() {
         let page = page.unwrap().path();
@@ -208,7 +208,7 @@ fn an_event_has_the_keys_that_the_reader_knows_for_its_kind() {
     let folder = Folder::new("file_schemas_events");
     let faults = schema("faults");
     let validator = validator("faults");
-    folder.write("rounds.toml", include_str!("../../sim/tests/common/rounds.toml"));
+    folder.write("rounds.toml", include_str!("../../sim/tests/runs/common/rounds.toml"));
     let said = |text: &str| {
         folder.write("faults.toml", format!("format = \"panorama-faults/1\"\n{text}\n"));
         let mission = if text.contains("door") { "rounds.toml" } else { "delivery" };

@@ -24,7 +24,7 @@ const TABLES: [(&str, &str, &str, &str); 13] = [
     ("[run]", "/else/properties/run", "patrol", "[run]"),
 ];
 /// A mission over the office.
-const ROUNDS: &str = include_str!("../../sim/tests/common/rounds.toml");
+const ROUNDS: &str = include_str!("../../sim/tests/runs/common/rounds.toml");
 const HARDWARE: &str = "/else/properties/hardware/additionalProperties";
 
 /// Returns the type of a value, in the words of the page.

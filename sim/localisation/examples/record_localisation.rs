@@ -6,7 +6,7 @@
 //! the ranges, and for each model of this crate the pose and the time that the update took.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss)]
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/localisation/common/mod.rs"]
 mod common;
 
 use common::{RANGE_M, RAYS, laser, office, route, route_on, with_laser, with_laser_on};

@@ -2,7 +2,7 @@
 #![cfg(feature = "std")]
 
 #[allow(dead_code)] // its `main` is for those who run it
-#[path = "../examples/allocate_patrol.rs"]
+#[path = "../../examples/allocate_patrol.rs"]
 mod allocate_patrol;
 
 #[test]

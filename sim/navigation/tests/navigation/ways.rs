@@ -1,9 +1,7 @@
 //! Ways of the lazy roadmap, held against the grid.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
-
-use common::{RADIUS, clutter, hall, place};
+use crate::common::{RADIUS, clutter, hall, place};
 use cotama_floor::{Footprint, Needs, Path, Planner, Pose, Surface};
 use cotama_navigation::{NoWay, Roadmap, Sampling};
 use cotama_streams::Streams;

@@ -1,9 +1,8 @@
 //! Robots that avoid what they see: nothing is touched, and dead ends make them stand.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
-
-use common::{Robot, braking, clutter, drivetrain, hall, place};
+use crate::common;
+use crate::common::{Robot, braking, clutter, drivetrain, hall, place};
 use core::f64::consts::PI;
 use cotama_core::units::Millis;
 use cotama_floor::{Point, Pose};

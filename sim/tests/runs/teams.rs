@@ -9,7 +9,7 @@ use cotama_sim::fleet::trace::{Trace, replay};
 use proptest::prelude::*;
 
 /// A team in the office: places of the floor stand for those of the team.
-const CREW: &str = include_str!("../../cli/templates/team.toml");
+const CREW: &str = include_str!("../../../cli/templates/team.toml");
 
 fn read(text: &str) -> Result<Scenario, String> {
     let ways = Asked::of(text).and_then(ways);

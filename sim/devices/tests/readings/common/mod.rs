@@ -1,6 +1,6 @@
 //! Halls that are drawn, whose coordinates are multiples of 1/64 m around the origin: mirrored and
 //! turned by right angles, they are the same numbers but for signs.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::float_cmp, clippy::cast_precision_loss)]
 
 use cotama_devices::Disc;
 use cotama_floor::{Bounds, Kind, Point, Pose, Segment, Segments};

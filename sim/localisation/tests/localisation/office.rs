@@ -1,9 +1,7 @@
 //! Robots in the office that ships.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss)]
 
-mod common;
-
-use common::{
+use crate::common::{
     Moment, follow, laser, off, office, quantile, route, sonars, with_laser, with_sonars,
 };
 use cotama_floor::{Pose, Version};

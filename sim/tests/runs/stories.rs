@@ -1,11 +1,10 @@
 //! Stories of a robot on its mission, one trouble at a time.
 #![allow(clippy::unwrap_used)]
 
-mod common;
 #[path = "stories/exact.rs"]
 mod exact;
 
-use common::{SHUTTLE, causes, labels, patrol, run, shuttle, under};
+use crate::common::{SHUTTLE, causes, labels, patrol, run, shuttle, under};
 use cotama_core::monitor::Upward;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::Mission;

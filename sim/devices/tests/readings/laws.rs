@@ -1,9 +1,7 @@
 //! Laws of devices, on floors that are drawn.
 #![allow(clippy::unwrap_used, clippy::float_cmp, clippy::cast_precision_loss)]
 
-mod common;
-
-use common::{Hall, Motion, halls};
+use crate::common::{Hall, Motion, halls};
 use cotama_core::units::Millis;
 use cotama_devices::{
     Disc, Fault, Laser, LaserSettings, Link, LinkSettings, Mode, Ring, RingSettings, Scene, Streams,

@@ -1,5 +1,5 @@
 //! Broken mission files and what is said about them. The messages are in `tests/golden/`, one file
-//! each; `UPDATE_GOLDEN=1 cargo test -p cotama-models --test broken` writes them again.
+//! each; `UPDATE_GOLDEN=1 cargo test -p cotama-models --test mission broken` writes them again.
 #![cfg(feature = "std")]
 #![allow(clippy::format_collect)] // a broken file may be slow to make
 

@@ -1,7 +1,7 @@
 //! Limits, ends of zones, rests and rates: what a unit more or less changes.
 
-use super::common::{SHUTTLE, faults, patrol, run, shuttle, under, with_period};
 use super::records;
+use crate::common::{SHUTTLE, faults, patrol, run, shuttle, under, with_period};
 use cotama_core::monitor::Upward;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::Mission;

@@ -1,9 +1,7 @@
 //! An operator who drives by the camera.
 #![allow(missing_docs)]
 
-mod common;
-
-use common::{Robot, hall};
+use crate::common::{Robot, hall};
 use cotama_floor::Point;
 use cotama_navigation::{Habits, Image, Limits, Operator};
 use cotama_plane::Command;

@@ -1,11 +1,9 @@
 //! Traces: the same bytes every time, everywhere; read back, run again, and never trusted.
 //!
-//! `UPDATE_GOLDEN=1 cargo test -p cotama-sim --test traces` rewrites the golden files.
+//! `UPDATE_GOLDEN=1 cargo test -p cotama-sim --test runs traces` rewrites the golden files.
 #![allow(clippy::unwrap_used, clippy::pedantic)]
 
-mod common;
-
-use common::{patrol, under, with_period};
+use crate::common::{patrol, under, with_period};
 use cotama_sim::options::{Options, Planner};
 use cotama_sim::trace::{Limits, Record, Trace, replay};
 use proptest::prelude::*;

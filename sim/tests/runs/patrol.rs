@@ -2,9 +2,7 @@
 //! are those of Table 7 (7.3.3), each at its place and for its cause.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{labels, patrol, run, with_period};
+use crate::common::{labels, patrol, run, with_period};
 use cotama_core::units::Millimetres;
 use cotama_models::missions::Mission;
 use cotama_models::missions::faults::EventKind;

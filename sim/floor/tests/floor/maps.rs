@@ -2,8 +2,7 @@
 //! mutants of both.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss)]
 
-mod common;
-
+use crate::common;
 use cotama_floor::map_server::{Map, Metadata, Mode};
 use cotama_fuzz::{Random, mutant};
 use png::{BitDepth, ColorType};

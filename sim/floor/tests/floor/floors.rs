@@ -1,8 +1,7 @@
 //! Files of floors: broken ones with their messages, mutants, and the office that ships.
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use cotama_floor::{Floor, Kind, Point, Ray, Sense, Surface, Version, embedded};
 use cotama_fuzz::{Random, mutant};
 use std::f64::consts::FRAC_PI_2;

@@ -1,7 +1,7 @@
 //! The delivery with its seven incidents (Durand et al., TAROS 2010, Section VI), under the
 //! supervisors that its robot's file makes.
 //!
-//! `UPDATE_GOLDEN=1 cargo test -p cotama-sim --test delivery` rewrites the golden files.
+//! `UPDATE_GOLDEN=1 cargo test -p cotama-sim --test runs delivery` rewrites the golden files.
 #![allow(clippy::unwrap_used, clippy::format_push_string)]
 
 use cotama_core::units::{Millimetres, Millis};

@@ -1,9 +1,7 @@
 //! Properties that hold whatever goes wrong.
 #![allow(clippy::unwrap_used, clippy::pedantic)]
 
-mod common;
-
-use common::{patrol, shuttle};
+use crate::common::{patrol, shuttle};
 use cotama_core::monitor::Upward;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::Mission;

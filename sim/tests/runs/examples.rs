@@ -1,7 +1,7 @@
 //! The example, as its readers run it: a program that prints what is asserted here.
 
 #[allow(dead_code)] // its `main` is for those who run it
-#[path = "../examples/run_with_fault.rs"]
+#[path = "../../examples/run_with_fault.rs"]
 mod run_with_fault;
 
 #[test]

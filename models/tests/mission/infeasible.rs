@@ -1,6 +1,6 @@
 //! Missions without a plan: the reason and the relaxations, exactly, and that each relaxation is
 //! what it says. What is said of them is in `tests/golden/infeasible_*.txt`; `UPDATE_GOLDEN=1 cargo
-//! test -p cotama-models --test infeasible` writes it again.
+//! test -p cotama-models --test mission infeasible` writes it again.
 #![cfg(feature = "std")]
 #![allow(clippy::cast_precision_loss)] // shares are compared roughly
 

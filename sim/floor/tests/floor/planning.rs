@@ -1,9 +1,8 @@
 //! Room, ways and pictures, against what is slow and plain.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss)]
 
-mod common;
-
-use common::{maps, part};
+use crate::common;
+use crate::common::{maps, part};
 use cotama_floor::{
     Bounds, Cell, Footprint, Grid, Needs, Path, Planner, Point, Pose, Sense, Surface, Vector,
     Version, embedded, metres, picture,

@@ -1,0 +1,9 @@
+//! Missions: what is read, what is refused, what is planned.
+
+mod broken;
+mod examples;
+mod infeasible;
+mod laws;
+mod measurements;
+mod mutants;
+mod patrol;

@@ -1,0 +1,7 @@
+//! Navigation: ways, guidance, avoidance, an operator.
+
+mod avoidance;
+mod common;
+mod guiding;
+mod operator;
+mod ways;
