@@ -1,5 +1,6 @@
 //! Missions: what is read, what is refused, what is planned.
 
+mod axed;
 mod broken;
 mod examples;
 mod infeasible;

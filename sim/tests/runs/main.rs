@@ -1,5 +1,6 @@
 //! Runs of missions and teams: what happens, what is recorded, what is run again.
 
+mod axed;
 mod common;
 mod delivery;
 mod doors;
