@@ -129,8 +129,8 @@ Examples:
     /// that of the first replan. A mission that names its robot is driven by supervisors (tables
     /// that react to events), who find, judge and answer each failure, and ask the operator. The
     /// scenarios `fleet` and `service`, and files of teams, are such robots that bid for tasks. The
-    /// scenario `two-ways` is an experiment: a robot learns of two ways among moving discs how likely
-    /// a trial fails, and policies choose by the mean or a quantile of the cost.
+    /// scenario `two-ways` is an experiment: a robot learns of two ways among moving discs how
+    /// likely a trial fails, and policies choose by the mean or a quantile of the cost.
     #[command(after_long_help = "\
 Examples:
   $ cotama run patrol

@@ -379,7 +379,7 @@ pub(crate) struct SampleArgs {
 
 #[derive(Args, Debug)]
 pub(crate) struct ObserveArgs {
-    /// The floor `sidewalk` or `plaza`, another one of the program, or the path of a drawing in TOML
+    /// The floor `sidewalk` or `plaza`, another one of the program, or a drawing in TOML
     pub(crate) floor: String,
     /// How long the robot drives, in seconds
     #[arg(long, value_name = "S", default_value_t = 600, value_parser = whole(1, MAX_S))]

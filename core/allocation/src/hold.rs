@@ -1,8 +1,8 @@
 //! A reserve for what remains: the planned rest is a mean, what it takes is a bound of it.
 //!
-//! PANORAMA plans again when *limit - used - planned rest* is below zero (Lambert et al., J. Intell.
-//! Robot. Syst. 110, 2024, eqs. 7 and 8). Runs take more than planned, so that such a margin is
-//! missed often and late. A [`Hold`] says how many times the planned rest is kept back on each
+//! PANORAMA plans again when *limit - used - planned rest* is below zero (Lambert et al., J.
+//! Intell. Robot. Syst. 110, 2024, eqs. 7 and 8). Runs take more than planned, so that such a
+//! margin is missed often and late. A [`Hold`] says how many times the planned rest is kept back on each
 //! axis, as past runs have shown it (split conformal prediction; see [`rank`]).
 //!
 //! ```

@@ -1,8 +1,8 @@
 //! Missions whose speeds and limits follow from performance axes (Lambert et al., J. Intell. Robot.
 //! Syst. 110, 2024, Sections 2 and 6.1).
 //!
-//! A file of [`FORMAT_3`](super::FORMAT_3) is one of the first or the second format whose `[limits]` are constraints
-//! on indicators. Numbers that it gives beyond those are attributes, which formulas read. The
+//! A file of [`FORMAT_3`](super::FORMAT_3) is one of the first or the second format whose
+//! `[limits]` are constraints on indicators. Numbers that it gives beyond those are attributes, which formulas read. The
 //! largest speed that keeps all core constraints is that of an alternative; constraints on the sums
 //! of duration and energy are the limits of the mission.
 

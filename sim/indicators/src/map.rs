@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_not_seen_adds_nothing_and_a_cell_seen_often_adds_less() {
+    fn a_cell_that_was_seen_often_adds_less_than_one_seen_once() {
         let mut map = map();
         let at = Point::new(10.0, 10.0);
         assert_eq!(map.around(at), Around::default());

@@ -32,7 +32,7 @@ pub enum Grows {
 }
 
 impl End {
-    /// Whether it is the largest value of an axis that the simulator counts: the axis and the value.
+    /// Returns the axis that the simulator counts and the most that it may be, if it limits one.
     fn limit(&self) -> Option<(usize, u64)> {
         let Grows::Counted(axis) = self.grows else { return None };
         let most = match self.relation {

@@ -4,7 +4,7 @@ use super::beta::{ln_beta, quantile};
 use super::interval::Interval;
 use libm::log;
 
-/// A bound that the `rank`-th smallest of `runs` past scores is, and how often later runs passed it.
+/// A bound, the `rank`-th smallest of `runs` past scores, and how often later runs passed it.
 ///
 /// If later runs are exchangeable with the past ones and no two scores are equal, the next run
 /// passes the bound with probability (runs + 1 - rank + missed) / (runs + 1 + seen): Pólya's urn
@@ -88,8 +88,8 @@ impl Promise {
         missed * (kept + passed) > passed * seen && self.evidence() >= -log(error)
     }
 
-    /// The logarithm of the probability of what was seen with a rate of which nothing is known, over
-    /// that of exchangeable runs.
+    /// The logarithm of the probability of what was seen with a rate of which nothing is known,
+    /// over that of exchangeable runs.
     pub fn evidence(&self) -> f64 {
         let (kept, passed) = self.urn();
         let (missed, within) = (self.missed as f64, (self.seen - self.missed) as f64);
