@@ -9,23 +9,23 @@ use std::path::Path;
 /// Each table of the page, where it stands in the schema, a mission that has it, and the line
 /// behind which another key is put.
 const TABLES: [(&str, &str, &str, &str); 13] = [
-    ("the file", "/else", "patrol", "format = \"panorama-mission/1\""),
+    ("the file", "/else/else", "patrol", "format = \"panorama-mission/1\""),
     ("the file of a mission of a robot", "/then", "delivery", "robot = \"p3dx-delivery\""),
-    ("[limits]", "/else/properties/limits", "patrol", "[limits]"),
-    ("[plan]", "/else/properties/plan", "patrol", "plan.objective = \"paper\""),
-    ("[robot]", "/else/properties/robot", "patrol", "[robot]"),
-    ("[motion_power]", "/else/properties/motion_power", "patrol", "[motion_power]"),
+    ("[limits]", "/else/else/properties/limits", "patrol", "[limits]"),
+    ("[plan]", "/else/else/properties/plan", "patrol", "plan.objective = \"paper\""),
+    ("[robot]", "/else/else/properties/robot", "patrol", "[robot]"),
+    ("[motion_power]", "/else/else/properties/motion_power", "patrol", "[motion_power]"),
     ("[hardware.NAME]", HARDWARE, "patrol", "[hardware.laser]"),
-    ("[fixed]", "/else/properties/fixed", "patrol", "[fixed]"),
-    ("[[tio]]", "/else/properties/tio/items", "patrol", "[[tio]]"),
-    ("[[zone]]", "/else/properties/zone/items", "patrol", "id = \"glass-out\""),
+    ("[fixed]", "/else/else/properties/fixed", "patrol", "[fixed]"),
+    ("[[tio]]", "/else/else/properties/tio/items", "patrol", "[[tio]]"),
+    ("[[zone]]", "/else/else/properties/zone/items", "patrol", "id = \"glass-out\""),
     ("[[objective]]", "/then/properties/objective/items", "delivery", "[[objective]]"),
     ("[[person]]", "/then/properties/person/items", "rounds", "[[person]]"),
-    ("[run]", "/else/properties/run", "patrol", "[run]"),
+    ("[run]", "/else/else/properties/run", "patrol", "[run]"),
 ];
 /// A mission over the office.
 const ROUNDS: &str = include_str!("../../sim/tests/runs/common/rounds.toml");
-const HARDWARE: &str = "/else/properties/hardware/additionalProperties";
+const HARDWARE: &str = "/else/else/properties/hardware/additionalProperties";
 
 /// Returns the type of a value, in the words of the page.
 fn is(value: &Value) -> &'static str {
