@@ -3,11 +3,11 @@
 //!
 //! PANORAMA plans again when *limit - used - planned rest* is below zero (Lambert et al., J.
 //! Intell. Robot. Syst. 110, 2024, eqs. 7 and 8). Here the planned rest becomes a bound: of n past
-//! runs the ratios of what the rest took over what was planned are sorted, and the k-th smallest with k =
-//! ceil((n + 1) coverage) bounds that of the next run with this probability at least, whatever the
-//! law of the drift, if runs are exchangeable (split conformal prediction; Vovk, Gammerman, Shafer,
-//! Algorithmic Learning in a Random World, 2005). Each activity has its own bound of all that
-//! follows, since quantiles do not add.
+//! runs the ratios of what the rest took over what was planned are sorted, and the k-th smallest
+//! with k = ceil((n + 1) coverage) bounds that of the next run with this probability at least,
+//! whatever the law of the drift, if runs are exchangeable (split conformal prediction; Vovk,
+//! Gammerman, Shafer, Algorithmic Learning in a Random World, 2005). Each activity has its own
+//! bound of all that follows, since quantiles do not add.
 //!
 //! ```
 //! use cotama_models::margins::{Calibration, Spent};

@@ -2,8 +2,8 @@
 //!
 //! PANORAMA plans again when *limit - used - planned rest* is below zero (Lambert et al., J.
 //! Intell. Robot. Syst. 110, 2024, eqs. 7 and 8). Runs take more than planned, so that such a
-//! margin is missed often and late. A [`Hold`] says how many times the planned rest is kept back on each
-//! axis, as past runs have shown it (split conformal prediction; see [`rank`]).
+//! margin is missed often and late. A [`Hold`] says how many times the planned rest is kept back on
+//! each axis, as past runs have shown it (split conformal prediction; see [`rank`]).
 //!
 //! ```
 //! use cotama_core::hold::Hold;

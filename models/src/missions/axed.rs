@@ -2,9 +2,9 @@
 //! Syst. 110, 2024, Sections 2 and 6.1).
 //!
 //! A file of [`FORMAT_3`](super::FORMAT_3) is one of the first or the second format whose
-//! `[limits]` are constraints on indicators. Numbers that it gives beyond those are attributes, which formulas read. The
-//! largest speed that keeps all core constraints is that of an alternative; constraints on the sums
-//! of duration and energy are the limits of the mission.
+//! `[limits]` are constraints on indicators. Numbers that it gives beyond those are attributes,
+//! which formulas read. The largest speed that keeps all core constraints is that of an
+//! alternative; constraints on the sums of duration and energy are the limits of the mission.
 
 use super::definition::{Definition, Objective, Task, Tio, Zone};
 use super::diagnostic::Diagnostic;
