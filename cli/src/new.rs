@@ -107,7 +107,7 @@ static BOARD: Template = Template {
     taken: &["net"],
 };
 
-/// What a kind of project is made of.
+/// The parts of a kind of project.
 #[derive(Clone, Copy)]
 enum Made {
     File(&'static OneFile),

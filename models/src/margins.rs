@@ -39,7 +39,7 @@ pub const MARGINS_FORMAT: &str = "cotama-margins/1";
 /// The most runs that are learned from.
 pub const MAX_RUNS: u32 = 10_000_000;
 
-/// What an activity of a run took.
+/// Amounts that an activity of a run took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Spent {
     /// Its position in the mission.
@@ -71,7 +71,7 @@ pub struct Promise {
     pub activity: String,
     /// How many runs came there.
     pub runs: u32,
-    /// Which of their ratios, from 1 for the smallest, is the bound; none where there are too few.
+    /// Rank of the ratio that is the bound, from 1 for the smallest; none where there are too few.
     pub rank: Option<u32>,
     /// The bounds of duration and energy, in millionths of what is planned; none where too many of
     /// the runs did not come to their end, or were too few.
@@ -179,7 +179,7 @@ fn ends(rest: &[Spent], activities: usize) -> bool {
     rest.last().is_some_and(|it| it.done && it.activity + 1 == activities)
 }
 
-/// What a run did from an activity on, if it came there.
+/// A run from an activity on, if it came there.
 fn rest(run: &[Spent], first: usize) -> Option<&[Spent]> {
     let at = run.iter().position(|it| it.activity == first)?;
     run.get(at..)

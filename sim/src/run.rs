@@ -53,7 +53,7 @@ pub struct Run {
     pub events: EventCounts,
     /// How often the margins were checked.
     pub checks: u64,
-    /// What each activity took that it came to, in their order.
+    /// Amounts of each activity that it came to, in their order.
     pub spent: Vec<Spent>,
 }
 

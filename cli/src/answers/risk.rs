@@ -169,13 +169,13 @@ pub(crate) struct CalibrateAnswer {
     pub(crate) runs: u64,
     /// How often a rest is to stay within its bound, at least.
     pub(crate) coverage: f64,
-    /// What was learned, for each activity; none with `--against`.
+    /// Bounds that were learned, for each activity; none with `--against`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) promises: Vec<PromiseRow>,
     /// The file of margins that was held against the runs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) against: Option<String>,
-    /// What became of its promises, for each activity and axis.
+    /// Promises held against later runs, for each activity and axis.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) watched: Vec<WatchedRow>,
     /// Whether the calibration holds, as far as these runs say; none where one was learned. An
@@ -191,7 +191,7 @@ pub(crate) struct PromiseRow {
     pub(crate) activity: String,
     /// Runs that came there.
     pub(crate) runs: u32,
-    /// Which of their ratios, from 1 for the smallest, is the bound; none where they are too few.
+    /// Rank of the ratio that is the bound, from 1 for the smallest; none where they are too few.
     pub(crate) rank: Option<u32>,
     /// The share of further runs within the bound: its mean over all sets of runs, and an interval
     /// for the share of this one.
@@ -213,7 +213,7 @@ pub(crate) struct DriftRow {
     pub(crate) median: Option<f64>,
 }
 
-/// What became of a bound.
+/// A bound held against later runs.
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 pub(crate) struct WatchedRow {

@@ -7,7 +7,7 @@ use super::table::{Cell, Table};
 use super::{visible, wrapped};
 use crate::answers::risk::{CalibrateAnswer, DriftRow, PromiseRow, WatchedRow};
 
-/// What was learned, or what became of it.
+/// Returns the screen of bounds that were learned, or held against later runs.
 pub(crate) fn screen(answer: &CalibrateAnswer, width: usize) -> String {
     let head = format!(
         "{HEADING}{}{HEADING:#}, {} runs, margins for {} %",

@@ -66,7 +66,7 @@ pub struct Observed {
     /// The supervisors' transitions that fired, as `ls.ask_Following`, each once, sorted.
     #[serde(skip)]
     pub fired: Vec<String>,
-    /// What each activity of a mission took that the run came to, in their order.
+    /// Amounts of each activity that the run came to, in their order.
     #[serde(skip)]
     pub spent: Vec<Spent>,
     /// The requirement that was broken while the run went on, which ended it.

@@ -13,12 +13,12 @@ use cotama_core::hold::{Hold, ONE};
 use cotama_models::missions::tables::Rest;
 
 impl Planning<'_> {
-    /// What is held back here.
+    /// Returns the reserve here.
     pub(super) fn hold(&self, at: &Progress) -> Hold<2> {
         self.hold_but(at, self.given_up)
     }
 
-    /// What is held back here, but for axes that are given up: within an activity the ratio goes
+    /// Returns the reserve here, but for axes that are given up: within an activity the ratio goes
     /// from that of its start to that of the next one as its way, or its time, is done.
     fn hold_but(&self, at: &Progress, given_up: [bool; 2]) -> Hold<2> {
         let Some(here) = self.of.holds.get(at.first).copied().map(Hold::ratios) else {

@@ -1,4 +1,4 @@
-//! What each activity of a run was planned to take, and took.
+//! Amounts that each activity of a run was planned to take, and took.
 
 use super::{Planning, Progress};
 use cotama_models::margins::Spent;

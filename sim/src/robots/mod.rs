@@ -80,7 +80,7 @@ pub struct Run {
     pub configurations: Vec<(Millis, Option<usize>)>,
     /// The plans of PANORAMA.
     pub plans: Vec<PlanMade>,
-    /// What each activity took that it came to, in their order.
+    /// Amounts of each activity that it came to, in their order.
     pub spent: Vec<Spent>,
     /// The longest time that the robot moved while a module was broken that its configuration
     /// requires.

@@ -12,7 +12,7 @@ use cotama_sim::run::Outcome;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// What came of runs: what each took, how they ended, their plans after the first.
+/// Results of runs: the amounts of each, how they ended, their plans after the first.
 #[derive(Default)]
 struct Runs {
     spent: Vec<Vec<Spent>>,
