@@ -100,9 +100,9 @@ impl Planning<'_> {
         let of = |[left, all]: [i128; 2]| {
             (self.value_of(last.first, id, indicator) * left).checked_div(all).unwrap_or(0)
         };
-        let before = of(self.left_of(last));
+        let before = of(self.left_of(last).map(i128::from));
         if at.first == last.first {
-            return (before - of(self.left_of(at))).max(0);
+            return (before - of(self.left_of(at).map(i128::from))).max(0);
         }
         let between: i128 = (last.first + 1..at.first).map(|it| self.value(it, indicator)).sum();
         let begun = at.first < self.choice.len() && at.first > last.first;
@@ -113,7 +113,7 @@ impl Planning<'_> {
 
     /// Returns what is left of the activity under way, as planned.
     fn begun(&self, at: &Progress, indicator: usize) -> i128 {
-        let [left, all] = self.left_of(at);
+        let [left, all] = self.left_of(at).map(i128::from);
         (self.value(at.first, indicator) * left).checked_div(all).unwrap_or(0)
     }
 
@@ -125,17 +125,6 @@ impl Planning<'_> {
             return 0;
         }
         later + self.begun(at, indicator)
-    }
-
-    /// Returns the part of the current activity that is left: a numerator and a denominator.
-    fn left_of(&self, at: &Progress) -> [i128; 2] {
-        let table = &self.of.activities[at.first];
-        let [left, all] = match at.rest {
-            None => [1, 1],
-            Some(Rest::Travel(left)) => [left.0, table.length().0],
-            Some(Rest::Time(left)) => [left.0, self.chosen(at.first).duration.0],
-        };
-        [left, all].map(i128::from)
     }
 
     /// Returns the margins of the end constraints with the plan in force, in units; those that the
@@ -196,12 +185,13 @@ impl Planning<'_> {
             return Err(NoPlan::Emptied { activity: first + empty });
         }
         let problem = Problem::new(&goals, &table, Lifted::default());
-        let (mut spent, mut found) = (0, Err(Stop::Limit));
+        let (mut spent, mut found, mut is_best) = (0, Err(Stop::Limit), true);
         // A robot on its way needs a plan soon: with fewer wishes where all take too long.
         for wishes in [&case.ask[..], case.ask.get(..1).unwrap_or_default(), &[]] {
             let mut steps = Steps::new(STEPS);
             found = problem.best(wishes, &mut steps);
             spent += steps.used();
+            is_best = wishes.len() == case.ask.len();
             if found.is_ok() {
                 break;
             }
@@ -213,7 +203,8 @@ impl Planning<'_> {
         };
         let picked = ids.iter().zip(&plan.choices).filter_map(|(ids, it)| ids.get(*it)).copied();
         let choice = stays.then(|| self.choice[at.first]).into_iter().chain(picked).collect();
-        self.proposal(at, available, choice, spent)
+        let proposal = self.proposal(at, available, choice, spent)?;
+        Ok(Proposal { planned: Planned { optimal: is_best, ..proposal.planned }, ..proposal })
     }
 
     /// Returns what the task under way still takes of a sum, in units.
@@ -229,7 +220,8 @@ impl Planning<'_> {
             let own = self.of.activities[activity];
             let rows = self.alternatives(activity).iter().zip(self.derived(activity)).zip(0u16..);
             let kept = rows.filter(|((it, _), _)| available.covers(it.needs));
-            let share = (activity == at.first && at.rest.is_some()).then(|| self.left_of(at));
+            let share = (activity == at.first && at.rest.is_some())
+                .then(|| self.left_of(at).map(i128::from));
             let (mut candidates, mut ids) = (Vec::new(), Vec::new());
             for ((_, derived), id) in kept {
                 let mut candidate = derived.clone();
@@ -290,7 +282,7 @@ impl Planning<'_> {
             cost: [sum(0), sum(1)],
             quality: picked.iter().map(|it| u64::from(it.quality)).sum(),
             bound: None,
-            optimal: true,
+            optimal: false,
             steps,
         };
         let first_cost = picked.first().map_or([0; 2], |it| it.cost);

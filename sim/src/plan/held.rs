@@ -38,15 +38,19 @@ impl Planning<'_> {
 
     /// How much of the current activity is done, and of how much: mm, or ms.
     pub(super) fn share(&self, at: &Progress) -> (u64, u64) {
-        let Some(activity) = self.of.activities.get(at.first) else { return (0, 0) };
-        let (left, whole) = match at.rest {
-            None => return (0, 1),
-            Some(Rest::Travel(left)) => {
-                (left.0, activity.x_end.0.saturating_sub(activity.x_start.0))
-            }
-            Some(Rest::Time(left)) => (left.0, self.chosen(at.first).duration.0),
-        };
+        let [left, whole] = self.left_of(at);
         (whole.saturating_sub(left), whole)
+    }
+
+    /// Returns how much of the current activity is left, and of how much: mm, or ms. A detour may
+    /// leave more than the whole.
+    pub(super) fn left_of(&self, at: &Progress) -> [u64; 2] {
+        let Some(activity) = self.of.activities.get(at.first) else { return [0; 2] };
+        match at.rest {
+            None => [1; 2],
+            Some(Rest::Travel(left)) => [left.0, activity.length().0],
+            Some(Rest::Time(left)) => [left.0, self.chosen(at.first).duration.0],
+        }
     }
 
     /// Asks for a plan that holds back what is to be held back, as far as there is one; says on

@@ -117,6 +117,33 @@ fn a_wait_makes_the_robot_plan_again_on_each_sum_that_it_costs() {
 }
 
 #[test]
+fn a_sum_of_the_laptop_is_counted_to_a_part_in_ten_thousand_of_a_wait_and_a_plan() {
+    let ends = ["duration", "energy", "located", "laptop", "data"];
+    let all = [&CORE[..], &["error", "cpu"], &ends].concat();
+    let wait = "[run]\n[[run.event]]\nx_mm = 50000\nkind = \"obstacle\"\ndelay_ms = 10000\n";
+    let with = |goal: i64| {
+        let text = patrol_with(&all, wait);
+        let goal = format!("goal = {goal} ");
+        Mission::parse("laptop.toml", &text.replacen("goal = 9000000 ", &goal, 1)).unwrap()
+    };
+    let (first, _) = plans(&with(9_000_000));
+    let laptop = first[0].further.iter().find(|it| it.constraint == "laptop").unwrap();
+    // The wait takes the laptop idle, both algorithms, the sonars and the Kinect: 16.96 W.
+    let used = 9_000_000 - laptop.margin + 169_600;
+    let ended = |goal: i64| {
+        let (plans, outcome) = plans(&with(goal));
+        assert_eq!(
+            (plans[0].plan[7].activity.as_str(), plans[0].plan[7].choice.as_str()),
+            ("A8", "M1 L2")
+        );
+        (plans.len(), outcome)
+    };
+    assert_eq!(ended(used + 400), (1, Outcome::Completed));
+    // With less another plan is needed.
+    assert_ne!(ended(used - 400), (1, Outcome::Completed));
+}
+
+#[test]
 fn both_lasers_lost_make_the_robot_slower_on_line() {
     let fault = "[run]\n[[run.event]]\nx_mm = 70000\nkind = \"fault\"\nhardware = \"laser\"\n\
                  units_lost = 2\n";
