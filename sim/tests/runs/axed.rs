@@ -130,6 +130,7 @@ fn a_sum_of_the_laptop_is_counted_to_a_part_in_ten_thousand_of_a_wait_and_a_plan
     let laptop = first[0].further.iter().find(|it| it.constraint == "laptop").unwrap();
     // The wait takes the laptop idle, both algorithms, the sonars and the Kinect: 16.96 W.
     let used = 9_000_000 - laptop.margin + 169_600;
+    assert_eq!(used, 7_935_167);
     let ended = |goal: i64| {
         let (plans, outcome) = plans(&with(goal));
         assert_eq!(
