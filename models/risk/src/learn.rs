@@ -7,6 +7,7 @@ mod score;
 mod search;
 mod states;
 mod subsets;
+mod tail;
 
 pub use chain::{Chain, chain};
 pub use constraints::{Constraints, Wish};

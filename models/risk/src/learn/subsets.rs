@@ -7,10 +7,11 @@
 //! below: equal rests in one cell are one entry with a weight, and the entries lie in the order of
 //! their rests, so that they meet. A cell with up to three light entries is not followed any
 //! further: which subsets keep its entries together is known, and is counted for all of them
-//! at once.
+//! at once. The [last levels](super::tail) are one step.
 
 use super::score::Score;
 use super::states::{evenness, products, row_bits, strides, table, tables, weight_bits, width};
+use super::tail::{LANES, Tail};
 use crate::data::Data;
 
 /// Weights up to this are counted by their numbers.
@@ -84,8 +85,9 @@ struct Walk {
     /// Entries of a cell by their state, while it is cut, and how many these are.
     cut: Vec<Vec<Entry>>,
     lengths: Vec<usize>,
-    /// Rows of each state, in the last cell.
-    sums: Vec<usize>,
+    tail: Tail,
+    /// Counts of some cells.
+    grid: Vec<[u32; LANES]>,
     /// For each byte of a rest and each value the levels whose states have one of its bits.
     differ: Vec<[u32; 256]>,
 }
@@ -135,6 +137,7 @@ impl Subsets {
         for level in (0..count).rev() {
             rest[level] = larger(rest[level + 1], wants[level]);
         }
+        let tail = Tail::new(&states, &shifts, &strides);
         let mut walk = Walk {
             tables: vec![None; tables(data, score)],
             values: vec![0.0; 1 << count],
@@ -143,7 +146,8 @@ impl Subsets {
             cells: Vec::new(),
             cut: vec![vec![APART; rests.len() + 1]; most],
             lengths: vec![1; most],
-            sums: vec![0; most],
+            grid: vec![[0; LANES]; tail.size()],
+            tail,
             differ: differ(&shifts),
             rows: data.rows(),
             weights: (1 << shifts[0]) - 1,
@@ -183,7 +187,7 @@ impl Walk {
     /// the last ones.
     fn visit(&mut self, at: Place, entries: usize, cells: usize) {
         let Place { level, mask, table, configurations, taken, most } = at;
-        if level + 2 == self.states.len() {
+        if level + self.tail.levels == self.states.len() {
             return self.leaves(at, entries, cells);
         }
         let bit = self.bit(level);
@@ -224,44 +228,41 @@ impl Walk {
         }
     }
 
-    /// The last two levels at once: a cell is one of the subset without both; its entries, those of
-    /// the last variable together, are those of the subset with both.
+    /// The last levels at once: each cell is a table of their states, with its sums.
     fn leaves(&mut self, at: Place, mut start: usize, cells: usize) {
-        let Place { level, mask, table, .. } = at;
-        self.push(mask, 2);
-        self.push(mask, 1);
-        self.push(mask + 2, 1);
-        let (one, two) = (self.strides[level], self.strides[level + 1]);
-        let tables = [table, table + two, table + one, table + one + two];
-        tables.iter().for_each(|it| self.make(*it));
-        let of = |at: usize| self.tables.get(at).and_then(Option::as_deref).unwrap_or(&[]);
-        let [none, last, first, both] = tables.map(of);
-        let (shift, split) = (self.shifts[level], self.shifts[level + 1]);
-        let field = (1_u64 << (split - shift)) - 1;
-        let sums = &mut self.sums[..self.states[level]];
-        let mut values = [0.0; 4];
-        for end in &self.cells[cells..] {
-            let (mut total, mut run, mut state) = (0, 0, u64::MAX);
-            for entry in &self.entries[start..*end] {
-                if entry >> split != state {
-                    values[1] += last[run];
-                    (run, state) = (0, entry >> split);
-                }
-                let weight = (entry & self.weights) as usize;
-                run += weight;
-                total += weight;
-                sums[(entry >> shift & field) as usize] += weight;
-                values[3] += both[weight];
-            }
-            values[1] += last[run];
-            values[0] += none[total];
-            for sum in &mut *sums {
-                values[2] += first[*sum];
-                *sum = 0;
-            }
-            start = *end;
+        let Place { mask, table, .. } = at;
+        let tail = std::mem::take(&mut self.tail);
+        for level in (0..tail.levels).rev() {
+            let masks = (0..1 << tail.levels).step_by(2 << level);
+            masks.for_each(|it| self.push(mask + it, 1 << level));
         }
-        self.values[mask..mask + 4].copy_from_slice(&values);
+        tail.parts.iter().for_each(|it| self.make(table + it.stride));
+        let mut grid = std::mem::take(&mut self.grid);
+        let mut sums = vec![[0.0; LANES]; tail.parts.len()];
+        for ends in self.cells[cells..].chunks(LANES) {
+            grid.fill([0; LANES]);
+            for (lane, end) in ends.iter().enumerate() {
+                for entry in &self.entries[start..*end] {
+                    grid[tail.place(*entry)][lane] += (entry & self.weights) as u32;
+                }
+                start = *end;
+            }
+            tail.add_up(&mut grid);
+            for (part, sums) in tail.parts.iter().zip(&mut sums) {
+                let Some(Some(of)) = self.tables.get(table + part.stride) else { continue };
+                // In registers, as no row of the grid is read while a sum waits for memory.
+                let mut own = *sums;
+                for place in &part.places {
+                    let counts = grid[usize::from(*place)];
+                    own = std::array::from_fn(|it| own[it] + of[counts[it] as usize]);
+                }
+                *sums = own;
+            }
+        }
+        for (value, sums) in self.values[mask..].iter_mut().zip(&sums) {
+            *value = sums.iter().sum();
+        }
+        (self.grid, self.tail) = (grid, tail);
     }
 
     fn make(&mut self, at: usize) {
@@ -351,17 +352,13 @@ impl Walk {
     /// Counts a cell of up to three light entries for all subsets below a place; returns whether
     /// the cell was such a one.
     fn is_resolved(&mut self, at: Place, cell: &[Entry]) -> bool {
-        // Nothing is won by it at the last levels, which look at each cell once.
-        if at.level + 2 >= self.states.len() {
-            return matches!(cell, [one] if one & self.weights == 1);
-        }
         let weights = self.weights;
         let weight = |it: Entry| (it & weights) as usize;
         let total = cell.iter().take(4).map(|it| weight(*it)).sum();
         if cell.len() > 3 || total > LIGHT {
             return false;
         }
-        let everything = self.bit(at.level) * 2 - 1;
+        let everything = (1 << (self.states.len() - at.level)) - 1;
         // Each entry alone, wherever nothing else is said.
         cell.iter().for_each(|it| self.add(at.mask | everything, weight(*it), 1));
         let agreed = |one: Entry, two: Entry| everything & !self.differing(one ^ two);
@@ -416,9 +413,18 @@ impl Walk {
 
     /// Adds light cells, and for `BDeu` what all rows have alone.
     fn finish(&mut self, configurations: &[f64]) {
+        let stride = |bit: u32| self.strides[self.states.len() - 1 - bit as usize];
+        // From one mask to the next a bit is set, and all below it are not any more.
+        let steps: Vec<(usize, usize)> = (0..self.states.len() as u32)
+            .map(|bit| (stride(bit), (0..bit).map(stride).sum()))
+            .collect();
+        let mut table = 0;
+        let mut alone = vec![None; self.tables.len()];
         for (mask, product) in configurations.iter().enumerate() {
-            let levels = (0..self.states.len()).filter(|it| mask & self.bit(*it) != 0);
-            let table = levels.map(|it| self.strides[it]).sum::<usize>();
+            if mask > 0 {
+                let (set, unset) = steps[mask.trailing_zeros() as usize];
+                table = table + set - unset;
+            }
             self.make(table);
             let Some(Some(own)) = self.tables.get(table) else { continue };
             let light = self.light[mask].iter().enumerate().skip(1);
@@ -426,10 +432,11 @@ impl Walk {
                 .filter(|it| *it.1 != 0)
                 .map(|(at, count)| f64::from(*count) * own.get(at + 1).copied().unwrap_or(0.0))
                 .sum();
-            self.values[mask] += light;
-            if let Score::Bdeu { ess } = self.score {
-                self.values[mask] += self.rows as f64 * libm::log(ess / product);
-            }
+            let alone = *alone[table].get_or_insert_with(|| match self.score {
+                Score::Bic => 0.0,
+                Score::Bdeu { ess } => self.rows as f64 * libm::log(ess / product),
+            });
+            self.values[mask] += light + alone;
         }
     }
 }
