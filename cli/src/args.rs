@@ -41,7 +41,7 @@ pub(crate) use risk::{
     SampleArgs, ScoreName, SeparatedArgs,
 };
 pub(crate) use schema::{SchemaArgs, SchemaName};
-pub(crate) use team::TeamArgs;
+pub(crate) use team::{Compare, TeamArgs};
 pub(crate) use ways::WaysArgs;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};

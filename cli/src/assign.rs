@@ -1,7 +1,8 @@
 //! `cotama assign`: which robots do which tasks.
 
 use crate::answers::assign::{
-    AssignAnswer, AssignStatus, Certificate, DoneRow, GreedyRow, ProofRow, WhyInfeasible,
+    AssignAnswer, AssignStatus, Certificate, DoneRow, Fraction, GreedyRow, ProofRow,
+    PruningCondition, PruningRow, TeamRow, WhyInfeasible,
 };
 use crate::args::AssignArgs;
 use crate::exit::{Exit, Failure};
@@ -12,16 +13,19 @@ use crate::output::Screen;
 use crate::render;
 use crate::team::{self, Chosen};
 use cotama_core::team::Team;
+use cotama_models::team::Ratio;
 use cotama_models::team::instance::{
     Assignment, Instance, InstancePlan, PlanProof, Proof, Verdict,
 };
+use cotama_models::team::scenario::{Figures, Scenario};
 
 /// Solves one instance.
 pub(crate) fn assign(args: &AssignArgs, screen: &Screen) -> Result<Exit, Failure> {
-    let instance = instance(&args.instance)?;
+    let (instance, figures) = instance(&args.instance)?;
     let greedy = args.greedy.then(|| greedy(&instance)).transpose()?;
     let found = instance.solve(args.steps).map_err(|error| Failure::new(error.to_string()))?;
-    let answer = answer(&instance, &found, greedy);
+    let mut answer = answer(&instance, &found, greedy);
+    answer.team = figures.as_ref().map(|it| team_row(it, &instance, answer.cost));
     if args.json.json {
         Screen::json(&answer)?;
     } else {
@@ -39,19 +43,50 @@ pub(crate) fn assign(args: &AssignArgs, screen: &Screen) -> Result<Exit, Failure
     })
 }
 
-/// The instance of a file; of a team at work all its tasks as it starts.
-fn instance(path: &str) -> Result<Instance, Failure> {
+/// The instance of a file; of a team at work all its tasks as it starts, with its figures.
+fn instance(path: &str) -> Result<(Instance, Option<Figures>), Failure> {
+    let at_work = |it: &Scenario| (Instance::from(it), Some(it.figures()));
     if let Some(team) = team::Team::named(path) {
-        return Ok(Instance::from(&Chosen::Known(team).scenario()));
+        return Ok(at_work(&Chosen::Known(team).scenario()));
     }
     let what = "a team with its tasks";
     let wanted = [Kind::Team, Kind::TeamAtWork];
     let text = kind::text(path, what, input::INSTANCE_BYTES, &wanted)?;
     let name = input::name(path);
     if kind::is_of(&text, Kind::TeamAtWork) {
-        return Ok(Instance::from(&team::read(path, name, &text)?));
+        return Ok(at_work(&team::read(path, name, &text)?));
     }
-    Ok(Instance::parse(name, &text)?)
+    Ok((Instance::parse(name, &text)?, None))
+}
+
+fn team_row(figures: &Figures, instance: &Instance, cost: Option<u64>) -> TeamRow {
+    let permille = |it: Ratio| {
+        u64::try_from(it.numerator().saturating_mul(1_000) / it.denominator()).unwrap_or(u64::MAX)
+    };
+    let fraction = |it: Ratio| Fraction { exact: it.to_string(), permille: permille(it) };
+    // Costs are in parts of a ms.
+    let utility = instance.tasks.iter().map(|it| it.skip.map(|it| u64::from(it.get())));
+    let utility = utility.sum::<Option<u64>>().map(|it| it * u64::from(instance.denominator));
+    let performance = cost.zip(utility).and_then(|(cost, utility)| {
+        let left = (i128::from(utility) - i128::from(cost)) * 1_000;
+        i64::try_from(left.checked_div_euclid(utility.into())?).ok()
+    });
+    TeamRow {
+        performance_permille: performance,
+        heterogeneity: figures.heterogeneity.map(fraction),
+        bound: figures.bound.map(fraction),
+        pruning: figures.pruning.map(|it| PruningRow {
+            coalitions: it.coalitions,
+            steps: it.steps,
+            conditions: [
+                ("cap1", it.union, it.steps_union),
+                ("cap2", it.roles, it.steps_roles),
+                ("cap3", it.matching, it.steps_matching),
+            ]
+            .map(|(name, passed, steps)| PruningCondition { name, passed, steps })
+            .to_vec(),
+        }),
+    }
 }
 
 /// Returns the result of greedy rounds.
@@ -104,6 +139,7 @@ fn answer(instance: &Instance, found: &Assignment, greedy: Option<GreedyRow>) ->
         why_infeasible,
         certificate: certificate(instance, &found.proof),
         greedy,
+        team: None,
     }
 }
 

@@ -69,6 +69,36 @@ fn allocations_are_compared_on_common_seeds() {
 }
 
 #[test]
+fn trust_in_skills_is_compared_on_common_seeds() {
+    let folder = Folder::new("team_trust");
+    let small =
+        ["run", "fleet", "--robots", "4", "--tasks", "12", "--failures", "0", "--loss", "0"];
+    let failing = [&small[..], &["--gripper", "30"]].concat();
+    let many = [&failing[..], &["--seeds", "4", "--compare", "trust"]].concat();
+    golden("run_fleet_trust.txt", &folder.cotama(&many).stdout);
+    let answer = folder.cotama(&[&many[..], &["--json"]].concat()).json(0);
+    validate("run-team", &answer);
+    let rows = answer["compared"]["trusts"].as_array().unwrap();
+    let names: Vec<_> = rows.iter().map(|it| it["trust"].clone()).collect();
+    assert_eq!(names, ["certain", "stated", "learned", "known"]);
+    assert_eq!(rows[3]["undue_milli"], json!({ "mean": 0, "low": 0, "high": 0 }));
+    let one = [&failing[..], &["--trust", "learned", "--json", "--no-report"]].concat();
+    let answer = folder.cotama(&one).json(0);
+    validate("run-team", &answer);
+    assert_eq!(answer["run"]["skills"].as_array().unwrap().len(), 4);
+    for (options, said) in [
+        ("--seeds 2 --compare trust --trust known", "every trust is run and compared"),
+        ("--compare trust", "--seeds"),
+        ("--gripper 101", "a number from 0 to 100"),
+        ("--trust luck", "certain, stated, learned, known"),
+    ] {
+        let ended = folder.shell(&format!("cotama run fleet {options}"));
+        assert_eq!(ended.code, Some(2), "{options}");
+        assert!(ended.stderr.contains(said), "{options}: {}", ended.stderr);
+    }
+}
+
+#[test]
 fn options_of_missions_and_of_teams_are_told_apart() {
     let folder = Folder::new("team_options");
     let tenth = "fault = [{ at_ms = 0, robot = \"r10\", mode = \"SON1\" }]";

@@ -30,6 +30,62 @@ pub(crate) struct AssignAnswer {
     /// Result of greedy rounds, if that was asked; none where the team is too large for them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) greedy: Option<GreedyRow>,
+    /// Figures of a team at work; none of other instances.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) team: Option<TeamRow>,
+}
+
+/// Figures of a team at its start.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct TeamRow {
+    /// The performance of the assignment (2.7): of the utility of all tasks what is left when the
+    /// cost is taken away, in thousandths, rounded down; none without an assignment or utility.
+    pub(crate) performance_permille: Option<i64>,
+    /// How different the robots are (3.5): from 0, all equal, to 1, nothing shared; none of one.
+    pub(crate) heterogeneity: Option<Fraction>,
+    /// At least so much of the largest possible reward is kept by greedy rounds (3.5.3), while
+    /// enough free capable coalitions remain; none where no task is for several robots, where a
+    /// coalition costs as much as its task yields, or without `pruning`.
+    pub(crate) bound: Option<Fraction>,
+    /// Coalitions that can be passed over before any bid (3.4.2); none where these are more than
+    /// 100,000.
+    pub(crate) pruning: Option<PruningRow>,
+}
+
+/// An exact fraction.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct Fraction {
+    /// Numerator and denominator in lowest terms, as `1/3`.
+    pub(crate) exact: String,
+    /// In thousandths, rounded down.
+    pub(crate) permille: u64,
+}
+
+/// What conditions on coalitions save: all coalitions of as many robots as a plan has roles, over
+/// the plans of all tasks for several robots.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct PruningRow {
+    pub(crate) coalitions: u64,
+    /// Steps of all their role assignments: z³ each for z robots.
+    pub(crate) steps: u64,
+    pub(crate) conditions: Vec<PruningCondition>,
+}
+
+/// A condition that a coalition must meet to be capable.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct PruningCondition {
+    /// `cap1`: all robots together could fill each role; `cap2`: each role has a robot that can;
+    /// `cap3`: each has a robot of its own.
+    pub(crate) name: &'static str,
+    /// Coalitions that meet it.
+    pub(crate) passed: u64,
+    /// Steps with the condition first: 2z, z² and z³ for the condition, and z³ for each coalition
+    /// that meets it. The condition pays where these are fewer than without.
+    pub(crate) steps: u64,
 }
 
 /// Status of the answer.

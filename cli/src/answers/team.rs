@@ -68,6 +68,15 @@ pub(crate) struct TeamRun {
     /// Messages sent, by their kind.
     pub(crate) messages: BTreeMap<&'static str, u64>,
     pub(crate) messages_lost: u64,
+    /// The performance of the team (2.7): of the utility of all tasks what is left when the time of
+    /// robots, and the utility of tasks that are not done, are taken away, in thousandths; none
+    /// where all utilities are 0.
+    pub(crate) performance_permille: Option<i64>,
+    /// Uses of skills that failed: an action was repeated, or its task given back.
+    pub(crate) failed_uses: u64,
+    /// Skills that may fail or are counted, with their uses in the run.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) skills: Vec<SkillRow>,
     /// Awards of tasks to robots.
     pub(crate) awards: Vec<AwardRow>,
     /// Errors of robots in their tasks, by class.
@@ -78,6 +87,19 @@ pub(crate) struct TeamRun {
     /// Path of the trace.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) trace: Option<String>,
+}
+
+/// The uses of a skill.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct SkillRow {
+    pub(crate) robot: String,
+    pub(crate) skill: String,
+    /// Uses that the skill decided.
+    pub(crate) uses: u32,
+    pub(crate) failed: u32,
+    /// What the robot takes its reliability to be at the end, in parts per 10⁹.
+    pub(crate) reliability: u32,
 }
 
 /// An award.
@@ -92,6 +114,10 @@ pub(crate) struct AwardRow {
     pub(crate) robots: Vec<String>,
     /// Planned cost of each role, in ms.
     pub(crate) costs_ms: Vec<u32>,
+    /// Probability that no action of each role fails, as its robot takes it to be, in parts per
+    /// 10⁹; none where all are certain.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) success: Vec<u32>,
 }
 
 /// An error.
@@ -114,7 +140,44 @@ pub(crate) struct Compared {
     pub(crate) seeds: u64,
     /// The level of the intervals.
     pub(crate) confidence_permille: u16,
+    /// A row for each allocation, where these are compared.
     pub(crate) allocations: Vec<ComparedRow>,
+    /// A row for what bids take the reliability of skills to be, where that is compared.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) trusts: Vec<TrustRow>,
+}
+
+/// All runs in which bids take the reliability of skills to be the same.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct TrustRow {
+    /// `certain`, `stated`, `learned` or `known`.
+    pub(crate) trust: &'static str,
+    /// Time of robots, with the utility of what is not done, a run.
+    pub(crate) cost_ms: Interval,
+    /// Cost beyond that of the first row, seed by seed.
+    pub(crate) more_ms: Interval,
+    pub(crate) more_permille: Interval,
+    /// From when a task became known until it was done.
+    pub(crate) mean_time_ms: Interval,
+    /// The same beyond that of the first row, seed by seed.
+    pub(crate) more_time_ms: Interval,
+    /// Uses of skills that may fail, in thousandths a run.
+    pub(crate) uses_milli: Interval,
+    /// Uses that failed, in thousandths a run: an action was repeated, or its task given back.
+    pub(crate) failed_milli: Interval,
+    /// The same beyond that of the first row, seed by seed.
+    pub(crate) more_failed_milli: Interval,
+    /// Awards to robots with such skills that would have gone to others had all known how often
+    /// they fail, in thousandths a run.
+    pub(crate) undue_milli: Interval,
+    /// The number of these over all runs, by how often the robot had used such skills before: below
+    /// 10 times, 10 to 19, and so on; the last ones are more.
+    pub(crate) undue_by_uses: Vec<u64>,
+    pub(crate) done: u64,
+    pub(crate) reported: u64,
+    pub(crate) reopened: u64,
+    pub(crate) unsound: u64,
 }
 
 /// All runs with an allocation.

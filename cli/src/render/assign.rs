@@ -1,10 +1,12 @@
 //! The screen of `cotama assign`: who does what, what it costs, and why it costs no less.
 
-use super::numbers::{count, grouped};
+use super::numbers::{count, grouped, milli};
 use super::style::{BAD, FAINT, GOOD, HEADING, NAME, NOTICE};
 use super::table::{Cell, Table};
 use super::{described, visible, wrapped};
-use crate::answers::assign::{AssignAnswer, AssignStatus, Certificate, GreedyRow, ProofRow};
+use crate::answers::assign::{
+    AssignAnswer, AssignStatus, Certificate, Fraction, GreedyRow, ProofRow, TeamRow,
+};
 use cotama_models::team::instance::Instance;
 use std::fmt::Write;
 
@@ -63,7 +65,50 @@ pub(crate) fn screen(
     if let Some(greedy) = &answer.greedy {
         text += &described("greedy", 6, FAINT, &greedy_rounds(greedy, answer, parts), width);
     }
+    if let Some(team) = &answer.team {
+        text += &figures(team, width);
+    }
     text + &super::next(next)
+}
+
+/// Figures of a team at work, with what each means.
+fn figures(team: &TeamRow, width: usize) -> String {
+    let mut text = format!("\n{HEADING}the team{HEADING:#}\n");
+    let mut line = |name: &str, said: &str| text += &described(name, 13, FAINT, said, width);
+    if let Some(it) = team.performance_permille {
+        let words = "of the utility of all tasks is left when the cost is taken away (2.7)";
+        line("performance", &format!("{} {words}", milli(i128::from(it) * 100, 1, " %")));
+    }
+    if let Some(it) = &team.heterogeneity {
+        let words = "of their capabilities two robots do not share, on average (3.5)";
+        line("heterogeneity", &format!("{}: {} {words}", it.exact, percent(it)));
+    }
+    if let Some(it) = &team.bound {
+        let words = "of the best reward is kept by greedy rounds at least, while enough capable \
+                     coalitions are free (3.5.3)";
+        line("bound", &format!("{} {words}", percent(it)));
+    }
+    if let Some(it) = team.pruning.as_ref().filter(|it| it.coalitions > 0) {
+        let passed: Vec<String> = it
+            .conditions
+            .iter()
+            .map(|it| format!("{} by {}", grouped(&it.passed.to_string()), it.name))
+            .collect();
+        let all = grouped(&it.coalitions.to_string());
+        line("coalitions", &format!("{all}, of which pass {} (3.4.2)", passed.join(", ")));
+        let steps: Vec<String> = it
+            .conditions
+            .iter()
+            .map(|it| format!("{} with {}", grouped(&it.steps.to_string()), it.name))
+            .collect();
+        let all = grouped(&it.steps.to_string());
+        line("steps", &format!("{all} to assign their roles, {}", steps.join(", ")));
+    }
+    text
+}
+
+fn percent(it: &Fraction) -> String {
+    milli(i128::from(it.permille) * 100, 1, " %")
 }
 
 /// Tasks with who does them.

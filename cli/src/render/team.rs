@@ -3,7 +3,7 @@
 use super::numbers::{count, grouped, milli, seconds};
 use super::style::{BAD, FAINT, GOOD, HEADING, NAME, NOTICE, PLAIN};
 use super::table::{Cell, Table};
-use crate::answers::team::{Interval, TeamAnswer, TeamRun};
+use crate::answers::team::{Compared, Interval, TeamAnswer, TeamRun};
 use cotama_sim::fleet::record::Record;
 use cotama_sim::fleet::trace::Trace;
 use std::fmt::Write;
@@ -80,11 +80,46 @@ fn headline(answer: &TeamAnswer, run: &TeamRun) -> String {
         ("put up again", run.reopened.to_string(), "given back, or the robot was silent"),
         ("out of work", run.robots_out.to_string(), "robots, at the end"),
     ];
+    let performance = run.performance_permille.map(|it| {
+        let words = "of the utility of all tasks is left, less the time of robots (2.7)";
+        ("performance", milli(i128::from(it) * 100, 1, " %"), words)
+    });
+    let failed = (run.failed_uses > 0).then(|| {
+        (
+            "uses failed",
+            run.failed_uses.to_string(),
+            "an action was repeated, or its task given back",
+        )
+    });
     let mut table = Table::new(vec![]).left(2);
-    for (name, value, words) in rows {
+    for (name, value, words) in rows.into_iter().chain(failed).chain(performance) {
         table.row(vec![Cell::plain(name), Cell::plain(value), Cell::faint(words)]);
     }
-    text + &table.render(100)
+    text + &table.render(100) + &skills(run)
+}
+
+/// Skills that may fail or are counted, as their robots have come to know them.
+fn skills(run: &TeamRun) -> String {
+    if run.skills.is_empty() {
+        return String::new();
+    }
+    let head = ["robot", "skill", "uses", "failed", "taken to work"].map(Cell::faint).to_vec();
+    let mut table = Table::new(vec![head]).left(1);
+    for it in run.skills.iter().take(SHOWN) {
+        table.row(vec![
+            Cell::plain(super::visible(&it.robot)),
+            Cell::plain(super::visible(&it.skill)),
+            Cell::plain(it.uses.to_string()),
+            Cell::plain(it.failed.to_string()),
+            Cell::plain(milli(i128::from(it.reliability / 1_000_000) * 100, 1, " %")),
+        ]);
+    }
+    let mut text = format!("\n{HEADING}skills{HEADING:#}\n{}", table.render(100));
+    if run.skills.len() > SHOWN {
+        let more = run.skills.len() - SHOWN;
+        let _ = writeln!(text, "  {FAINT}and {more} more: see --json{FAINT:#}");
+    }
+    text
 }
 
 /// Returns the faults, and in a small run the awards.
@@ -149,8 +184,8 @@ fn happened(answer: &TeamAnswer, trace: &Trace, width: usize) -> String {
 /// Many seeds.
 pub(crate) fn compared(answer: &TeamAnswer, faults: usize, next: &str, width: usize) -> String {
     let Some(compared) = &answer.compared else { return String::new() };
-    let all = compared.allocations.iter();
-    let unsound: u64 = all.clone().map(|it| it.unsound).sum();
+    let unsound = compared.allocations.iter().map(|it| it.unsound);
+    let unsound: u64 = unsound.chain(compared.trusts.iter().map(|it| it.unsound)).sum();
     let (style, word) = if unsound == 0 {
         (GOOD, "sound".to_owned())
     } else {
@@ -168,6 +203,21 @@ pub(crate) fn compared(answer: &TeamAnswer, faults: usize, next: &str, width: us
         answer.seed,
         answer.seed + compared.seeds - 1
     );
+    if compared.trusts.is_empty() {
+        text += &by_allocation(compared).render(width);
+    } else {
+        text += &by_trust(compared, width);
+    }
+    let _ = writeln!(
+        text,
+        "  {FAINT}means with intervals of 95 %; robot time counts what is not done with its \
+         utility{FAINT:#}"
+    );
+    let _ = writeln!(text, "\nnext: {NAME}{}{NAME:#}", super::visible(next));
+    text
+}
+
+fn by_allocation(compared: &Compared) -> Table {
     let head = ["allocation", "robot time", "more than first", "", "a task takes", "reported"];
     let mut table = Table::new(vec![head.iter().map(|it| Cell::new(*it, HEADING)).collect()]);
     for it in &compared.allocations {
@@ -183,14 +233,60 @@ pub(crate) fn compared(answer: &TeamAnswer, faults: usize, next: &str, width: us
             Cell::plain(it.reported.to_string()),
         ]);
     }
-    text += &table.render(width);
-    let _ = writeln!(
-        text,
-        "  {FAINT}means with intervals of 95 %; robot time counts what is not done with its \
-         utility{FAINT:#}"
-    );
-    let _ = writeln!(text, "\nnext: {NAME}{}{NAME:#}", super::visible(next));
-    text
+    table
+}
+
+/// What bids take the reliability of skills to be: what it costs, and what failed.
+fn by_trust(compared: &Compared, width: usize) -> String {
+    let head = ["reliability", "robot time", "more than first", "a task takes", "more", "reported"];
+    let mut costs = Table::new(vec![head.iter().map(|it| Cell::new(*it, HEADING)).collect()]);
+    let head = ["reliability", "uses", "of these failed", "more than first", "undue awards"];
+    let mut uses = Table::new(vec![head.iter().map(|it| Cell::new(*it, HEADING)).collect()]);
+    for (number, it) in compared.trusts.iter().enumerate() {
+        let more = |it: Interval, decimals, unit| {
+            if number == 0 { "–".to_owned() } else { spread(it, decimals, unit) }
+        };
+        costs.row(vec![
+            Cell::plain(it.trust),
+            Cell::plain(interval(it.cost_ms, " s")),
+            Cell::plain(more(it.more_ms, 1, " s")),
+            Cell::plain(spread(it.mean_time_ms, 1, " s")),
+            Cell::plain(more(it.more_time_ms, 1, " s")),
+            Cell::plain(it.reported.to_string()),
+        ]);
+        uses.row(vec![
+            Cell::plain(it.trust),
+            Cell::plain(spread(it.uses_milli, 2, "")),
+            Cell::plain(spread(it.failed_milli, 2, "")),
+            Cell::plain(more(it.more_failed_milli, 2, "")),
+            Cell::plain(spread(it.undue_milli, 2, "")),
+        ]);
+    }
+    let last = compared.trusts.first().map_or(0, |it| it.undue_by_uses.len().saturating_sub(1));
+    let group = |at: usize| match at {
+        _ if at == last => format!("{} and more", at * 10),
+        _ => format!("{} to {}", at * 10, at * 10 + 9),
+    };
+    let head = ["undue by uses before".to_owned()].into_iter().chain((0..=last).map(group));
+    let mut undue = Table::new(vec![head.map(|it| Cell::new(it, HEADING)).collect()]);
+    for it in &compared.trusts {
+        let counts = it.undue_by_uses.iter().map(u64::to_string);
+        undue.row([it.trust.to_owned()].into_iter().chain(counts).map(Cell::plain).collect());
+    }
+    format!(
+        "{}\n{}\n{}  {FAINT}uses and failures a run, of skills that may fail; an award is undue \
+         that another robot would have\n  got had all known how often they do; below, all of them \
+         over all runs{FAINT:#}\n",
+        costs.render(width),
+        uses.render(width),
+        undue.render(width)
+    )
+}
+
+/// A mean with the half width of its interval, in thousandths.
+fn spread(it: Interval, decimals: u32, unit: &str) -> String {
+    let half = milli(i128::from(it.high - it.mean), decimals, "");
+    format!("{} ± {half}{unit}", milli(it.mean.into(), decimals, ""))
 }
 
 fn interval(it: Interval, unit: &str) -> String {

@@ -2,8 +2,8 @@
 
 mod compared;
 
-use crate::answers::team::{AwardRow, TeamAnswer, TeamErrorRow, TeamRun};
-use crate::args::{Fidelity, OperatorName, ReplayArgs, RunArgs, STEPS};
+use crate::answers::team::{AwardRow, SkillRow, TeamAnswer, TeamErrorRow, TeamRun};
+use crate::args::{Compare, Fidelity, OperatorName, ReplayArgs, RunArgs, STEPS};
 use crate::exit::{Exit, Failure};
 use crate::file_errors::FileErrors;
 use crate::input;
@@ -18,10 +18,10 @@ use cotama_campaign::plan::{Fault, Plan};
 use cotama_campaign::recorded::{self, Again};
 use cotama_campaign::subject::Subject;
 use cotama_models::missions::embedded;
-use cotama_models::team::scenario::{self, FaultsOfTeam, Method, Scenario};
+use cotama_models::team::scenario::{self, FaultsOfTeam, Method, Scenario, Trust};
 use cotama_pages::team as page;
 use cotama_sim::fleet::Kind as Letters;
-use cotama_sim::fleet::record::{Fate, Record};
+use cotama_sim::fleet::record::{Fate, Record, SkillUses};
 use cotama_sim::fleet::scenarios::{FleetOptions, ServiceOptions, fleet, service};
 use cotama_sim::fleet::trace::{self, Trace};
 use cotama_sim::trace::TraceError;
@@ -49,9 +49,16 @@ pub(crate) fn not_meant(name: &str) -> Result<(), Failure> {
     }
 }
 
+/// What differs from the team and its options.
+#[derive(Clone, Copy, Default)]
+struct Variant {
+    method: Option<Method>,
+    trust: Option<Trust>,
+}
+
 impl Chosen {
-    /// Returns what is run for these options with a seed and a method.
-    fn made(&self, args: &RunArgs) -> Result<impl Fn(u64, Option<Method>) -> Scenario, Failure> {
+    /// Returns what is run for these options with a seed and a variant.
+    fn made(&self, args: &RunArgs) -> Result<impl Fn(u64, Variant) -> Scenario, Failure> {
         let script = args.faults != "none";
         if args.team.hidden_handle && !matches!(self, Self::Known(Team::Service)) {
             return Err(Failure::new("--hidden-handle is for `cotama run service`"));
@@ -68,18 +75,22 @@ impl Chosen {
         }
         let (tasks, loss) = (number(args.team.tasks, usual.tasks), args.team.loss);
         let (hidden_handle, allocation) = (args.team.hidden_handle, args.team.allocation);
+        let (gripper, trust) = (args.team.gripper.unwrap_or(0), args.team.trust);
         let file = match self {
             Self::File(scenario) => Some((**scenario).clone()),
             Self::Known(_) => None,
         };
         let is_fleet = self.is_fleet();
-        let own = move |seed: u64, method: Option<Method>| {
-            let method = method.or(allocation.map(Method::from));
+        let own = move |seed: u64, variant: Variant| {
+            let method = variant.method.or(allocation.map(Method::from));
+            let trust = variant.trust.or(trust.map(Trust::from));
             let mut scenario = match &file {
                 Some(scenario) => Scenario { seed, ..scenario.clone() },
                 None if is_fleet => {
                     let failures = if script { failures } else { 0 };
-                    fleet(&FleetOptions { robots, tasks, failures, seed, ..usual })
+                    let gripper_fails_permille = gripper;
+                    let size = FleetOptions { robots, tasks, failures, seed, ..usual };
+                    fleet(&FleetOptions { gripper_fails_permille, ..size })
                 }
                 None => {
                     let disturbances = script && !hidden_handle;
@@ -99,15 +110,16 @@ impl Chosen {
                 scenario.network.loss_permille = loss;
             }
             scenario.method = method.unwrap_or(scenario.method);
+            scenario.trust = trust.unwrap_or(scenario.trust);
             scenario
         };
         // Faults are those of this team, whatever its size.
         let given = match args.faults.as_str() {
             "script" | "none" => None,
-            file => Some(faults(file, &own(args.seed.unwrap_or(0), None))?),
+            file => Some(faults(file, &own(args.seed.unwrap_or(0), Variant::default()))?),
         };
-        Ok(move |seed: u64, method: Option<Method>| {
-            let mut scenario = own(seed, method);
+        Ok(move |seed: u64, variant: Variant| {
+            let mut scenario = own(seed, variant);
             if let Some(given) = &given {
                 scenario.faults.clone_from(given);
             }
@@ -132,13 +144,17 @@ pub(crate) fn run(args: &RunArgs, chosen: &Chosen, screen: &Screen) -> Result<Ex
     for_missions(args)?;
     let made = chosen.made(args)?;
     if let Some(seeds) = args.team.seeds {
-        if args.team.allocation.is_some() {
-            let message = "--allocation with --seeds: every allocation is run and compared";
+        let given = [
+            (Compare::Allocation, args.team.allocation.is_some(), "allocation"),
+            (Compare::Trust, args.team.trust.is_some(), "trust"),
+        ];
+        if let Some((_, _, what)) = given.into_iter().find(|it| it.0 == args.team.compare && it.1) {
+            let message = format!("--{what} with --seeds: every {what} is run and compared");
             return Err(Failure::new(message).help("leave one of them out"));
         }
         return compared(args, &made, seeds, screen);
     }
-    let trace = Trace::of(&made(args.seed.unwrap_or(0), None));
+    let trace = Trace::of(&made(args.seed.unwrap_or(0), Variant::default()));
     let usual = || PathBuf::from("report").join(report_name(&trace.header.scenario));
     let folder = args.report.clone().unwrap_or_else(usual);
     let folder = (!args.no_report).then_some(folder.as_path());
@@ -338,6 +354,9 @@ fn of(trace: &Trace) -> TeamRun {
         robots_out: run.out as u64,
         messages: Letters::ALL.iter().map(|it| (it.name(), run.sent(*it))).collect(),
         messages_lost: run.lost,
+        failed_uses: u64::from(run.failed_uses),
+        skills: run.skills.iter().map(|it| skill(trace, it)).collect(),
+        performance_permille: performance(trace, run.cost_ms),
         awards: Vec::new(),
         errors: Vec::new(),
         report: None,
@@ -345,7 +364,7 @@ fn of(trace: &Trace) -> TeamRun {
     };
     for record in &trace.records {
         match record {
-            Record::Awarded { t_ms, task, round, plan, robots, costs_ms, .. } => {
+            Record::Awarded { t_ms, task, round, plan, robots, costs_ms, success, .. } => {
                 answer.awards.push(AwardRow {
                     t_ms: *t_ms,
                     round: *round,
@@ -353,6 +372,7 @@ fn of(trace: &Trace) -> TeamRun {
                     plan: plan.clone(),
                     robots: robots.iter().map(|it| trace.robot(*it).to_owned()).collect(),
                     costs_ms: costs_ms.clone(),
+                    success: success.clone(),
                 });
             }
             Record::Error { t_ms, robot, task, class, why } => answer.errors.push(TeamErrorRow {
@@ -366,4 +386,22 @@ fn of(trace: &Trace) -> TeamRun {
         }
     }
     answer
+}
+
+fn skill(trace: &Trace, it: &SkillUses) -> SkillRow {
+    SkillRow {
+        robot: trace.robot(it.robot).to_owned(),
+        skill: it.skill.clone(),
+        uses: it.uses,
+        failed: it.failed,
+        reliability: it.reliability,
+    }
+}
+
+/// The performance of a team (2.7): of the utility of all tasks what is left when the time of
+/// robots, and the utility of what is not done, are taken away; in thousandths, rounded down.
+fn performance(trace: &Trace, cost_ms: u64) -> Option<i64> {
+    let utility = trace.scenario().ok()?.tasks.iter().map(|it| i128::from(it.utility_ms)).sum();
+    let left: i128 = (utility - i128::from(cost_ms)) * 1_000;
+    i64::try_from(left.checked_div_euclid(utility)?).ok()
 }

@@ -4,6 +4,8 @@
 #[cfg(feature = "std")]
 mod answers;
 #[cfg(feature = "std")]
+mod at_work;
+#[cfg(feature = "std")]
 mod broken;
 #[cfg(feature = "std")]
 mod choices;

@@ -1,8 +1,12 @@
-//! Methods of giving out tasks, each over many seeds: what one costs on average, and what it costs
-//! more than another one with the same seeds.
+//! Variants of a team, as methods of giving out tasks, each over many seeds: what one costs on
+//! average, and what it costs more than another one with the same seeds.
 
-use cotama_models::team::scenario::{Method, Scenario};
-use cotama_sim::fleet::{record::Fate, run};
+use cotama_models::team::Capability;
+use cotama_models::team::scenario::Scenario;
+use cotama_sim::fleet::{
+    record::{Fate, SkillUses},
+    run,
+};
 use std::thread;
 
 /// A mean with the half width of its interval of 95 %, both rounded.
@@ -41,19 +45,23 @@ impl Spread {
     }
 }
 
-/// The results of a method over all seeds.
+/// The results of a variant over all seeds.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Results {
-    /// The method.
-    pub method: Method,
+pub struct Results<V> {
+    /// The variant.
+    pub variant: V,
     /// For how long robots worked, with the utility of what was not done, in ms a run.
     pub cost_ms: Spread,
     /// From when a task became known until it was done, in ms a task.
     pub waited_ms: Spread,
-    /// Cost less that of the optimal method with the same seed, in ms a run.
+    /// The same less that of the first variant with the same seed.
+    pub more_waited_ms: Spread,
+    /// Cost less that of the first variant with the same seed, in ms a run.
     pub more_ms: Spread,
-    /// The same in thousandths of the optimal cost.
+    /// The same in thousandths of the cost of the first.
     pub more_permille: Spread,
+    /// What skills did that may fail.
+    pub skills: SkillResults,
     /// Tasks done, and tasks reported, over all runs.
     pub done: usize,
     /// Tasks reported as not to be done, of all runs.
@@ -64,9 +72,30 @@ pub struct Results {
     pub unsound: usize,
 }
 
+/// What skills that may fail did over all seeds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SkillResults {
+    /// How often such skills were used, in thousandths a run.
+    pub uses_milli: Spread,
+    /// How often one failed, so that an action was repeated or its task given back, in thousandths
+    /// a run.
+    pub failed_milli: Spread,
+    /// The same less that of the first variant with the same seed.
+    pub more_failed_milli: Spread,
+    /// Awards to their robots that would have gone to others had all known how often these skills
+    /// fail, in thousandths a run.
+    pub undue_milli: Spread,
+    /// How often the robot had used such skills before each of them, over all runs, in rising
+    /// order.
+    pub undue_after: Vec<u32>,
+}
+
 /// One run.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct One {
+    uses: i64,
+    failed: i64,
+    undue: Vec<u32>,
     cost_ms: i64,
     waited_ms: i64,
     done: usize,
@@ -75,8 +104,8 @@ struct One {
     sound: bool,
 }
 
-/// Runs so many seeds from the first one on, with each method, on so many threads; the number of
-/// threads changes nothing. `scenario` makes what is run. The first method is what the others are
+/// Runs so many seeds from the first one on, with each variant, on so many threads; the number of
+/// threads changes nothing. `scenario` makes what is run. The first variant is what the others are
 /// compared with.
 ///
 /// ```
@@ -91,21 +120,21 @@ struct One {
 /// assert_eq!(both.iter().map(|it| it.unsound).sum::<usize>(), 0);
 /// assert_eq!(both[0].more_ms.mean, 0);
 /// ```
-pub fn compare(
-    scenario: &(impl Fn(u64, Method) -> Scenario + Sync),
+pub fn compare<V: Copy + Sync>(
+    scenario: &(impl Fn(u64, V) -> Scenario + Sync),
     first_seed: u64,
     seeds: u64,
-    methods: &[Method],
+    variants: &[V],
     threads: usize,
-) -> Vec<Results> {
+) -> Vec<Results<V>> {
     let mut first: Vec<One> = Vec::new();
     let mut all = Vec::new();
-    for &method in methods {
-        let runs = runs(&|seed| scenario(seed, method), first_seed, seeds, threads.max(1));
+    for &variant in variants {
+        let runs = runs(&|seed| scenario(seed, variant), first_seed, seeds, threads.max(1));
         if first.is_empty() {
             first.clone_from(&runs);
         }
-        all.extend(results(method, &runs, &first));
+        all.extend(results(variant, &runs, &first));
     }
     all
 }
@@ -134,7 +163,17 @@ fn runs(
 fn one(scenario: &Scenario) -> One {
     let run = run(scenario);
     let done = run.count(Fate::Done);
+    let may_fail = |it: &&SkillUses| {
+        let at = scenario.skills.iter().position(|name| *name == it.skill);
+        let skill = at.and_then(|it| Capability::new(u8::try_from(it).ok()?));
+        let robot = scenario.robots.get(it.robot);
+        robot.zip(skill).is_some_and(|(robot, skill)| robot.fails.of(skill) > 0)
+    };
+    let uses = run.skills.iter().filter(may_fail).map(|it| i64::from(it.uses)).sum();
     One {
+        uses,
+        failed: i64::from(run.failed_uses),
+        undue: run.undue.clone(),
         cost_ms: i64::try_from(run.cost_ms).unwrap_or(i64::MAX),
         waited_ms: i64::try_from(run.waited_ms / (done as u64).max(1)).unwrap_or(i64::MAX),
         done,
@@ -144,12 +183,25 @@ fn one(scenario: &Scenario) -> One {
     }
 }
 
-fn results(method: Method, runs: &[One], first: &[One]) -> Option<Results> {
+fn results<V>(variant: V, runs: &[One], first: &[One]) -> Option<Results<V>> {
     let spread = |value: &dyn Fn((&One, &One)) -> i64| {
         Spread::of(&runs.iter().zip(first).map(value).collect::<Vec<_>>())
     };
+    let mut undue_after: Vec<u32> = runs.iter().flat_map(|it| it.undue.iter().copied()).collect();
+    undue_after.sort_unstable();
+    let skills = SkillResults {
+        uses_milli: spread(&|it| it.0.uses * 1_000)?,
+        failed_milli: spread(&|it| it.0.failed * 1_000)?,
+        more_failed_milli: spread(&|it| (it.0.failed - it.1.failed) * 1_000)?,
+        undue_milli: spread(&|it| {
+            i64::try_from(it.0.undue.len()).map_or(i64::MAX, |it| it * 1_000)
+        })?,
+        undue_after,
+    };
     Some(Results {
-        method,
+        variant,
+        skills,
+        more_waited_ms: spread(&|it| it.0.waited_ms - it.1.waited_ms)?,
         cost_ms: spread(&|it| it.0.cost_ms)?,
         waited_ms: spread(&|it| it.0.waited_ms)?,
         more_ms: spread(&|it| it.0.cost_ms - it.1.cost_ms)?,

@@ -54,6 +54,7 @@ pub fn html(trace: &Trace) -> String {
     page.push_str(&on_floor);
     gantt(&mut page, trace, &all, !on_floor.is_empty());
     wrong(&mut page, trace);
+    skills(&mut page, trace);
     auctions(&mut page, trace);
     messages(&mut page, trace);
     footer(&mut page, trace);
@@ -258,6 +259,13 @@ fn wrong(page: &mut String, trace: &Trace) {
                 let what = format!("{}: {why}", class.name());
                 (*t_ms, trace.robot(*robot), trace.task(*task).to_owned(), what)
             }
+            Record::Failed { t_ms, robot, task, skill, number, reliability } => {
+                let what = format!(
+                    "{skill} fails at use {number}; it is taken to work {} of the time from now on",
+                    share(*reliability)
+                );
+                (*t_ms, trace.robot(*robot), trace.task(*task).to_owned(), what)
+            }
             Record::Silent { t_ms, robot, task } => {
                 let what = "is silent; the award has run out".to_owned();
                 (*t_ms, trace.robot(*robot), trace.task(*task).to_owned(), what)
@@ -296,6 +304,42 @@ fn wrong(page: &mut String, trace: &Trace) {
     page.push_str("</section>\n");
 }
 
+/// Skills that may fail or are counted, as their robots have come to know them.
+fn skills(page: &mut String, trace: &Trace) {
+    let skills = &trace.run().skills;
+    if skills.is_empty() {
+        return;
+    }
+    page.push_str(
+        "<section><h2>Skills</h2>\n<p class=\"note\">A use counts for the skill that decided it. \
+         What the robot has seen of it is what its bids count with.</p>\n\
+         <div class=\"scroll\"><table><thead><tr><th>Robot</th><th>Skill</th>\
+         <th class=\"n\">Uses</th><th class=\"n\">Failed</th>\
+         <th class=\"n\">Taken to work</th></tr></thead>\n<tbody>\n",
+    );
+    for it in skills.iter().take(MOST_ROWS) {
+        let _ = writeln!(
+            page,
+            "<tr><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>\
+             <td class=\"n\">{}</td></tr>",
+            markup(trace.robot(it.robot)),
+            markup(&it.skill),
+            it.uses,
+            it.failed,
+            share(it.reliability)
+        );
+    }
+    page.push_str("</tbody></table></div>\n");
+    cut(page, skills.len());
+    page.push_str("</section>\n");
+}
+
+/// Parts per 10⁹ in percent, rounded down.
+fn share(parts: u32) -> String {
+    let permille = parts / 1_000_000;
+    format!("{}.{} %", permille / 10, permille % 10)
+}
+
 fn cut(page: &mut String, rows: usize) {
     if rows > MOST_ROWS {
         let more = rows - MOST_ROWS;
@@ -308,7 +352,8 @@ fn auctions(page: &mut String, trace: &Trace) {
     let mut rows = 0;
     let mut table = String::new();
     for record in &trace.records {
-        let Record::Awarded { t_ms, task, round, plan, robots, costs_ms, pledges_ms } = record
+        let Record::Awarded { t_ms, task, round, plan, robots, costs_ms, pledges_ms, success } =
+            record
         else {
             continue;
         };
@@ -317,7 +362,11 @@ fn auctions(page: &mut String, trace: &Trace) {
             continue;
         }
         let robots: Vec<&str> = robots.iter().map(|it| trace.robot(*it)).collect();
-        let costs: Vec<String> = costs_ms.iter().map(|it| seconds(u64::from(*it))).collect();
+        let cost = |(at, it): (usize, &u32)| match success.get(at) {
+            Some(works) => format!("{}, works {}", seconds(u64::from(*it)), share(*works)),
+            None => seconds(u64::from(*it)),
+        };
+        let costs: Vec<String> = costs_ms.iter().enumerate().map(cost).collect();
         let _ = writeln!(
             table,
             "<tr><td class=\"n\">{}</td><td class=\"n\">{round}</td><td>{}</td><td>{}</td>\

@@ -1,10 +1,14 @@
 //! Allocation in a team: from bids to awards, by `cotama_core::team`.
 
-use crate::fleet::bid::{Offer, Share};
+mod reliable;
+
+use crate::fleet::bid::{Member, Offer, Share};
 use cotama_core::team::winners::Workspace;
 use cotama_core::team::{Cost, Costs, Memory, Plan, RobotSet, Task, Team, assign, coalition};
+use cotama_models::team::Probability;
 use cotama_models::team::scenario::{
-    Formation, MAX_ROBOTS, Method, PlanSpec, Scenario, TaskSpec, common_denominator,
+    Formation, Gate, MAX_ROBOTS, Method, Passes, PlanSpec, RobotSpec, Scenario, TaskSpec,
+    common_denominator,
 };
 use cotama_models::team::thesis::{self, Shares, State};
 
@@ -17,6 +21,8 @@ struct Tables {
     robots: Vec<usize>,
     /// The entries of each plan of each task.
     entries: Vec<Vec<Vec<Option<Cost>>>>,
+    /// Offers of which not all actions are certain to succeed: task, plan, role, robot.
+    success: Vec<([usize; 4], Probability)>,
     denominator: u32,
 }
 
@@ -42,7 +48,18 @@ impl Tables {
         }
         let sizes = specs().flat_map(|it| it.plans.iter().map(|it| it.roles.len() as u32));
         let denominator = common_denominator(sizes);
-        Self { robots, entries, denominator }
+        let uncertain = bids.iter().flat_map(|bid| {
+            let risky = bid.1.iter().filter(|it| it.success != Probability::ONE);
+            risky.map(|it| ([it.task, it.plan, it.role, bid.0], it.success))
+        });
+        let mut success: Vec<_> = uncertain.collect();
+        success.sort_unstable_by_key(|it| it.0);
+        Self { robots, entries, success, denominator }
+    }
+
+    fn success(&self, offer: [usize; 4]) -> Probability {
+        let found = self.success.binary_search_by_key(&offer, |it| it.0);
+        found.map_or(Probability::ONE, |it| self.success[it].1)
     }
 
     /// Plans of each task.
@@ -91,11 +108,13 @@ impl Allocator {
             let skip = Cost::new(skip as u32);
             listed.push(Task { skip, combine: spec.combine, plans });
         }
-        match scenario.method {
+        let mut shares = match scenario.method {
             Method::Optimal => self.optimal(scenario, tasks, &tables, &listed),
             Method::Rounds => self.rounds(scenario, tasks, &tables, &listed),
             Method::OneByOne => self.one_by_one(scenario, tasks, &tables, &listed),
-        }
+        };
+        reliable::prefer(scenario, tables.denominator, bids, &mut shares);
+        shares
     }
 
     /// All at once.
@@ -232,6 +251,9 @@ impl Allocator {
         let plans = plans.first()?;
         let whole = Task { skip: None, combine: spec.combine, plans };
         let sets = shares_of(scenario.robots.len(), broker);
+        // Coalitions that are not capable are passed over before their bids are (3.4.2).
+        let robots: Vec<_> = scenario.robots.iter().map(RobotSpec::capabilities).collect();
+        let gates: Vec<_> = spec.plans.iter().map(|it| Gate::new(it, &robots)).collect();
         let mut best: Option<Share> = None;
         for set in sets {
             let columns = tables.robots.iter().enumerate().filter(|it| set >> it.1 & 1 == 1);
@@ -241,11 +263,16 @@ impl Allocator {
                 if size != set.count_ones() || size != columns.count_ones() {
                     continue;
                 }
+                let capable = |it: &Gate<'_>| it.passes(set as u64) == Passes::Matching;
+                if !gates.get(plan).is_some_and(capable) {
+                    continue;
+                }
                 let Some(chosen) = self.staff(&whole, plan, columns) else { continue };
                 let found = share(scenario, &tables, (task, 0), plan, &chosen, &whole);
                 let better = |it: &Share| {
                     best.as_ref().is_none_or(|best| {
-                        (it.cost, it.robots.len()) < (best.cost, best.robots.len())
+                        let reliable = || best.is_more_reliable(it);
+                        it.cost.cmp(&best.cost).then_with(reliable).is_lt()
                     })
                 };
                 if let Some(found) = found.filter(better) {
@@ -320,7 +347,11 @@ fn share(
     if costs.len() != scenario.tasks[task].plans[plan].roles.len() {
         return None;
     }
-    let robots = columns.iter().zip(&costs).map(|(&it, cost)| (tables.robots[it], cost.get()));
+    let robots = columns.iter().zip(&costs).enumerate().map(|(role, (&column, cost))| {
+        let robot = tables.robots[column];
+        let success = tables.success([task, plan, role, robot]);
+        Member { robot, cost_ms: cost.get(), success }
+    });
     let cost = of.cost(chosen, tables.denominator, costs.iter().copied());
     Some(Share { task, plan, robots: robots.collect(), cost })
 }

@@ -56,6 +56,7 @@ mod message;
 mod network;
 pub mod record;
 pub mod scenarios;
+mod skills;
 pub mod trace;
 mod world;
 

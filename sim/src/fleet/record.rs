@@ -46,6 +46,10 @@ pub enum Record {
         costs_ms: Vec<u32>,
         /// Largest cost of each role, in ms.
         pledges_ms: Vec<u64>,
+        /// Probability that no action of each role fails, as its robot takes it to be, in parts
+        /// per 10⁹; empty where all are certain.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        success: Vec<u32>,
     },
     /// A robot came to another stage of its task.
     Stage {
@@ -129,6 +133,21 @@ pub enum Record {
         /// The reason, in words.
         why: String,
     },
+    /// The use of a skill failed.
+    Failed {
+        /// When, in ms.
+        t_ms: u64,
+        /// The robot.
+        robot: usize,
+        /// The task.
+        task: usize,
+        /// The name of the skill.
+        skill: String,
+        /// The number of the use of it by this robot in the run, from 1.
+        number: u32,
+        /// What the robot takes its reliability to be from now on, in parts per 10⁹.
+        reliability: u32,
+    },
     /// The auctioneer has not heard of a robot for too long, and withdraws the award.
     Silent {
         /// When, in ms.
@@ -181,6 +200,7 @@ impl Line for Record {
             | Self::Found { t_ms, .. }
             | Self::Configured { t_ms, .. }
             | Self::Error { t_ms, .. }
+            | Self::Failed { t_ms, .. }
             | Self::Silent { t_ms, .. }
             | Self::Reopened { t_ms, .. }
             | Self::Done { t_ms, .. }
@@ -242,6 +262,36 @@ pub struct Run {
     pub end_ms: u64,
     /// Robots that cannot work any more.
     pub out: usize,
+    /// Uses of skills that failed.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub failed_uses: u32,
+    /// Awards to robots of which a skill may fail that would have gone to others had all known how
+    /// often: for each, how often the robot had used such skills before.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub undue: Vec<u32>,
+    /// The uses of skills that may fail or are counted, robot by robot.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub skills: Vec<SkillUses>,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+const fn is_none(count: &u32) -> bool {
+    *count == 0
+}
+
+/// The uses of a skill of a robot in a run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SkillUses {
+    /// The robot.
+    pub robot: usize,
+    /// The name of the skill.
+    pub skill: String,
+    /// Uses that the skill decided.
+    pub uses: u32,
+    /// Those of them that failed.
+    pub failed: u32,
+    /// What the robot takes its reliability to be at the end, in parts per 10⁹.
+    pub reliability: u32,
 }
 
 impl Run {

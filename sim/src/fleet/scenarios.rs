@@ -6,11 +6,11 @@ use crate::streams::{Stream, Streams};
 use cotama_core::team::Combine;
 use cotama_models::team::scenario;
 use cotama_models::team::scenario::{
-    Fault, FaultKind, FaultTime, Floor, Formation, Give, MAX_ROBOTS, Method, Needs, Place,
-    PlanSpec, Quality, RobotSpec, RoleSpec, Row, Scenario, Take, TaskSpec,
+    FailureRates, Fault, FaultKind, FaultTime, Floor, Formation, Give, MAX_ROBOTS, Method, Needs,
+    Place, PlanSpec, Quality, RobotSpec, RoleSpec, Row, Scenario, Take, TaskSpec, Trust,
 };
 use cotama_models::team::service::{DETECT, GRASP_2F, MOVE};
-use cotama_models::team::{Capability, CapabilitySet, Skill};
+use cotama_models::team::{Capability, CapabilitySet, Reliability, Skill};
 use std::sync::LazyLock;
 
 /// May enter the secured wing.
@@ -37,6 +37,10 @@ pub struct FleetOptions {
     pub failures: usize,
     /// How many of a thousand messages get lost.
     pub loss_permille: u16,
+    /// How often the gripper of the first robot fails, in thousandths; 0 for a fleet in which none
+    /// ever does. Where one does, grippers take and give for a minute, ten uses of each have gone
+    /// well before, and deliveries come more slowly.
+    pub gripper_fails_permille: u16,
     /// How tasks are given to robots.
     pub method: Method,
     /// The seed of all random numbers.
@@ -46,7 +50,8 @@ pub struct FleetOptions {
 impl Default for FleetOptions {
     fn default() -> Self {
         let method = Method::Optimal;
-        Self { robots: 40, tasks: 200, failures: 5, loss_permille: 50, method, seed: 0 }
+        let (robots, tasks, failures, gripper_fails_permille) = (40, 200, 5, 0);
+        Self { robots, tasks, failures, loss_permille: 50, gripper_fails_permille, method, seed: 0 }
     }
 }
 
@@ -63,6 +68,9 @@ const SECURED: usize = 8;
 /// time.
 const WORK: u64 = 240_000;
 
+/// The same where what is taken and given takes long, with some robots at rest at any time.
+const WORK_BY_HAND: u64 = 720_000;
+
 /// A fleet in an office: deliveries from office to office come one after the other; those into the
 /// secured wing are carried by a robot with a badge alone, or handed over at its door.
 ///
@@ -77,7 +85,9 @@ pub fn fleet(options: &FleetOptions) -> Scenario {
     let robots = options.robots.clamp(1, MAX_ROBOTS);
     let streams = Streams::new(options.seed);
     let floor = OFFICE.clone();
-    let horizon = options.tasks as u64 * WORK / robots as u64;
+    let hands = options.gripper_fails_permille > 0;
+    let work = if hands { WORK_BY_HAND } else { WORK };
+    let horizon = options.tasks as u64 * work / robots as u64;
     let (mut places, mut times) = (streams.stream("fleet tasks"), streams.stream("fleet times"));
     let mut arrivals: Vec<u64> = (0..options.tasks).map(|_| times.below(horizon + 1)).collect();
     arrivals.sort_unstable();
@@ -85,16 +95,28 @@ pub fn fleet(options: &FleetOptions) -> Scenario {
     let tasks = arrivals.iter().enumerate().map(|(number, &arrival_ms)| {
         let start = places.below(offices) as usize;
         let goal = (start + 1 + places.below(offices - 1) as usize) % offices as usize;
-        delivery(number, arrival_ms, start, goal)
+        let mut task = delivery(number, arrival_ms, start, goal);
+        if hands {
+            task.plans.iter_mut().flat_map(|it| &mut it.roles).for_each(drives_and_grasps);
+        }
+        task
     });
-    let robot = |number: usize| RobotSpec {
-        name: format!("r{:02}", number + 1),
-        skills: [MOVE, DETECT, GRASP_2F]
-            .into_iter()
-            .chain((number.is_multiple_of(3)).then_some(BADGE))
-            .map(Skill::certain)
-            .collect(),
-        start: Place(number * 7 % (2 * NODES)),
+    let robot = |number: usize| {
+        let rate = if number == 0 { options.gripper_fails_permille } else { 0 };
+        let skill = |it: Capability| match it {
+            GRASP_2F if hands => Skill { capability: it, reliability: TESTED },
+            it => Skill::certain(it),
+        };
+        RobotSpec {
+            name: format!("r{:02}", number + 1),
+            skills: [MOVE, DETECT, GRASP_2F]
+                .into_iter()
+                .chain((number.is_multiple_of(3)).then_some(BADGE))
+                .map(skill)
+                .collect(),
+            fails: FailureRates::NONE.with(GRASP_2F, rate),
+            start: Place(number * 7 % (2 * NODES)),
+        }
     };
     Scenario {
         name: "fleet".into(),
@@ -109,8 +131,21 @@ pub fn fleet(options: &FleetOptions) -> Scenario {
         auctioneer: None,
         slack_permille: 1_000,
         second_best: false,
+        trust: Trust::default(),
         seed: options.seed,
     }
+}
+
+/// Each gripper was tried ten times before the robot came, and did not fail.
+const TESTED: Reliability = Reliability::Uses { succeeded: 10, failed: 0 };
+
+/// Parts the one action of a role: who may go there drives, and the gripper takes and gives, for
+/// a minute each.
+fn drives_and_grasps(role: &mut RoleSpec) {
+    let whole: Vec<CapabilitySet> = role.actions.iter().flat_map(|it| it.0.clone()).collect();
+    let (grasps, drives): (Vec<_>, Vec<_>) = whole.into_iter().partition(|it| it.has(GRASP_2F));
+    role.actions = [drives.clone(), grasps.clone(), drives, grasps].map(Needs).to_vec();
+    (role.take_ms, role.give_ms) = (60_000, 60_000);
 }
 
 /// Some robots fail for good, as many others in part.
@@ -288,6 +323,7 @@ pub fn worst(case: Worst, robots: usize) -> Scenario {
     let robot = |number: usize| RobotSpec {
         name: format!("r{}", number + 1),
         skills: vec![Skill::certain(MOVE), Skill::certain(GRASP_2F)],
+        fails: FailureRates::NONE,
         start: Place(0),
     };
     Scenario {
@@ -306,6 +342,7 @@ pub fn worst(case: Worst, robots: usize) -> Scenario {
         auctioneer: None,
         slack_permille: 1_000,
         second_best: false,
+        trust: Trust::default(),
         seed: 0,
     }
 }

@@ -1,5 +1,7 @@
 //! Properties of every run.
 
+mod skills;
+
 use super::allocate::Allocator;
 use super::record::{Fate, Record, Run};
 use super::scenarios::{FleetOptions, ServiceOptions, Worst, fleet, service, worst};
@@ -8,8 +10,8 @@ use super::world::{Planted, World};
 use super::{Kind, run, run_recorded};
 use crate::fleet::bid::Offer;
 use crate::streams::Streams;
-use cotama_models::team::Reliability;
 use cotama_models::team::scenario::{Fault, FaultKind, FaultTime, Method, Row, Scenario, TaskSpec};
+use cotama_models::team::{Probability, Reliability};
 
 /// Table 3.1, worst case: 4n, n² + 3n and 3n² + 3n.
 #[test]
@@ -195,7 +197,8 @@ fn of_two_tasks_the_one_that_waits_longer_is_given_out() {
         Some(TaskSpec { utility_ms: 1_000, plans: vec![plan.clone()], ..task.clone() })
     });
     scenario.tasks = vec![alone.unwrap(); 2];
-    let offer = |task| Offer { task, plan: 0, role: 0, cost_ms: 100 };
+    let success = Probability::ONE;
+    let offer = |task| Offer { task, plan: 0, role: 0, cost_ms: 100, success, known_ms: 100 };
     let offers = [offer(0), offer(1)];
     for method in [Method::Optimal, Method::Rounds, Method::OneByOne] {
         scenario.method = method;

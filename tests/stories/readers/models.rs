@@ -7,6 +7,7 @@ use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, embedded};
 use cotama_models::robots::{self, Robot};
 use cotama_models::team::instance::Instance;
+use cotama_models::team::scenario::Scenario;
 use cotama_sim::trace::Trace;
 use std::sync::LazyLock;
 
@@ -33,6 +34,12 @@ super::readers! {
         "null", "[]", "{}", "\"max\"", "\"mean\"", "\"coalition\"", "\"single\"",
         "\"simultaneous\"",
         "\"cost\":", "\"plans\":", "\"skip_cost\":", "\\u0000",
+    ];
+    teams_at_work: teams_at_work, [
+        "[[robot]]\n", "[[task]]\n", "[[task.plan]]\n", "[[task.plan.role]]\n", "[[fault]]\n",
+        "[[floor.way]]\n", "[auction]\n", "{ name = \"grasp\", fails_permille = 1 }", "permille = ",
+        "succeeded = ", "failed = ", "trust = ", "after = ", "needs = [", "0+0", "1000/1000", " | ",
+        "{}", "[]", "'''", "floor = \"office\"\n",
     ];
     robots: robots, [
         "[[configuration]]\n", "[[failure]]\n", "[module.x]\n", "[hardware.x]\n", "[observer.x]\n",
@@ -128,6 +135,25 @@ fn teams(bytes: &[u8]) -> bool {
     match Instance::parse("file", &text) {
         Ok(instance) => {
             let _ = instance.solve(1_000);
+            true
+        }
+        Err(found) => {
+            errors(&text, &found);
+            false
+        }
+    }
+}
+
+/// A team that was read is written as what reads as the same, and has its bids and figures.
+fn teams_at_work(bytes: &[u8]) -> bool {
+    let text = text(bytes);
+    match Scenario::parse("file", &text) {
+        Ok(team) => {
+            let again = Scenario::parse("again", &team.to_toml());
+            assert_eq!(again.unwrap_or_else(|it| panic!("{it}")), team);
+            let instance = Instance::from(&team);
+            assert_eq!(instance.tasks.len(), team.tasks.len());
+            let _ = team.figures();
             true
         }
         Err(found) => {

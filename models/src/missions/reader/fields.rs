@@ -17,6 +17,7 @@ use std::ops::{Range, RangeInclusive};
 use toml::de::{DeTable, DeValue};
 
 pub(crate) use json::document_of_either;
+pub(crate) use more::TextOrTable;
 use units::{in_its_unit, is_without_unit, unit, values};
 
 type Node<'t> = toml::Spanned<DeValue<'t>>;

@@ -1,17 +1,20 @@
 //! Bids of the robots for roles: the time of the drives and of the hands, failures counted in.
 
 use super::worker::{drive_ms, pace, planning_ms};
-use super::{Give, Place, RoleSpec, Scenario, Spot, Take};
+use super::{Give, Needs, Place, RoleSpec, Scenario, Spot, Stage, Take};
 use crate::team::bid::Bid;
-use crate::team::capability::{CapabilitySet, Robot};
-use crate::team::reliability::Reliability;
+use crate::team::capability::{Capability, CapabilitySet, Robot, Skill};
+use crate::team::reliability::{Probability, Reliability};
+use std::cmp::Reverse;
 
 /// Time of the rounds of the decisional component between the parts of a task, all together, in ms.
 const ROUNDS: u64 = 1_500;
 
 /// The part of a robot in a role as things stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Outlook {
+pub struct Outlook<'a> {
+    /// The skills of the robot, as it takes them to be.
+    pub skills: &'a [Skill],
     /// The capabilities with which it would do so.
     pub able: CapabilitySet,
     /// The place of the robot.
@@ -22,6 +25,64 @@ pub struct Outlook {
     pub ends: [Spot; 2],
     /// Whether it has the object on board, and need not take it.
     pub holds: bool,
+}
+
+/// The bid of a robot for a role.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quote {
+    /// Cost, failures counted in (3.13), in ms.
+    pub cost_ms: u32,
+    /// Probability that no action fails.
+    pub success: Probability,
+}
+
+impl Needs {
+    /// Returns the capabilities that a robot of these skills uses: of each set the most reliable
+    /// one (3.12), of equal ones the first. Sets of which it has none are left out.
+    pub fn used(&self, skills: &[Skill]) -> impl Iterator<Item = Capability> {
+        let robot = Robot { name: "", skills };
+        let best = move |any: &CapabilitySet| {
+            let has = any.iter().filter_map(|it| Some((it, robot.reliability(it)?)));
+            has.min_by_key(|it| Reverse(it.1)).map(|it| it.0)
+        };
+        self.0.iter().filter_map(best)
+    }
+}
+
+impl RoleSpec {
+    /// Returns the actions of a stage of the hands: the second action takes, the fourth gives, with
+    /// all that follow. A role of fewer actions does the rest by its last.
+    pub fn by_hand(&self, stage: Stage) -> &[Needs] {
+        let last = self.actions.len().saturating_sub(1);
+        let of = match stage {
+            Stage::Takes => last.min(1)..(last + 1).min(2),
+            Stage::Gives => last.min(3)..last + 1,
+            _ => 0..0,
+        };
+        self.actions.get(of).unwrap_or_default()
+    }
+
+    /// Returns the bid of a robot of these skills, for the costs of its drives and hands in their
+    /// order, in ms: those that are over cost nothing. `None` where it cannot.
+    pub fn quote(&self, skills: &[Skill], costs: [u64; 4]) -> Option<Quote> {
+        let sum = |costs: &[u64]| costs.iter().fold(0_u64, |sum, it| sum.saturating_add(*it));
+        let certain = skills.iter().all(|it| it.reliability == Reliability::CERTAIN);
+        if certain || self.actions.is_empty() {
+            let cost_ms = u32::try_from(sum(&costs)).ok()?;
+            return Some(Quote { cost_ms, success: Probability::ONE });
+        }
+        // Failures are counted in. The last action of a role costs all that is still to be done;
+        // one that follows the last step costs nothing more.
+        let last = self.actions.len() - 1;
+        let cost = |at: usize| {
+            let rest = costs.get(at..).unwrap_or_default();
+            let own = rest.first().copied().unwrap_or(0);
+            u32::try_from(if at == last { sum(rest) } else { own }).unwrap_or(u32::MAX)
+        };
+        let who = Robot { name: "", skills };
+        let bid = self.with_role(|role| Bid::for_role(&who, role, |_, at| cost(at)))?;
+        Some(Quote { cost_ms: u32::try_from(bid.price()).ok()?, success: bid.success })
+    }
 }
 
 /// Returns the least number that each of these numbers of roles divides: in such parts the mean of
@@ -57,9 +118,9 @@ impl Scenario {
         [takes, gives]
     }
 
-    /// Returns the cost of a role for a robot, in ms; `None` where it cannot.
-    pub fn cost_ms(&self, robot: usize, role: &RoleSpec, outlook: &Outlook) -> Option<u32> {
-        let Outlook { able, from, pace, ends: [takes, gives], holds } = *outlook;
+    /// Returns the bid of a robot for a role; `None` where it cannot.
+    pub fn quote(&self, role: &RoleSpec, outlook: &Outlook<'_>) -> Option<Quote> {
+        let Outlook { skills, able, from, pace, ends: [takes, gives], holds } = *outlook;
         if !role.possible(able) {
             return None;
         }
@@ -73,24 +134,8 @@ impl Scenario {
             drive(takes, gives)?,
             role.give_ms,
         ];
-        let sum = |costs: &[u64]| costs.iter().fold(0_u64, |sum, it| sum.saturating_add(*it));
-        let who = self.robots.get(robot)?;
-        if who.skills.iter().all(|it| it.reliability == Reliability::CERTAIN) {
-            return u32::try_from(sum(&costs)).ok();
-        }
-        // Failures are counted in. The last action of a role costs all that is still to be done;
-        // one that follows the last step costs nothing more.
-        let usable: Vec<_> =
-            who.skills.iter().filter(|it| able.has(it.capability)).copied().collect();
-        let who = Robot { name: &who.name, skills: &usable };
-        let last = role.actions.len().saturating_sub(1);
-        let cost = |at: usize| {
-            let rest = costs.get(at..).unwrap_or_default();
-            let own = rest.first().copied().unwrap_or(0);
-            u32::try_from(if at == last { sum(rest) } else { own }).unwrap_or(u32::MAX)
-        };
-        let bid = role.with_role(|role| Bid::for_role(&who, role, |_, at| cost(at)));
-        u32::try_from(bid?.price()).ok()
+        let usable: Vec<_> = skills.iter().filter(|it| able.has(it.capability)).copied().collect();
+        role.quote(&usable, costs)
     }
 
     /// Returns the cost of a role of a task for a robot at the start of a run, in ms: nothing has
@@ -106,13 +151,15 @@ impl Scenario {
     pub fn bid(&self, robot: usize, task: usize, role: &RoleSpec) -> Option<u32> {
         let (who, object) = (self.robots.get(robot)?, self.tasks.get(task)?.start);
         let at = |place: Place| Spot::at(place);
+        let skills = who.trusted(self.trust);
         let outlook = Outlook {
+            skills: &skills,
             able: who.capabilities(),
             from: at(who.start),
             pace: pace(0)?,
             ends: self.ends(task, role, at(object)),
             holds: false,
         };
-        self.cost_ms(robot, role, &outlook)
+        Some(self.quote(role, &outlook)?.cost_ms)
     }
 }

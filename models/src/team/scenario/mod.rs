@@ -41,19 +41,23 @@
 //! ```
 
 mod bid;
+mod coalitions;
 mod floor;
 mod ground;
 mod reader;
 #[cfg(test)]
 mod tests;
 mod track;
+mod trust;
 mod worker;
 mod writer;
 
-pub use bid::{Outlook, common_denominator};
+pub use bid::{Outlook, Quote, common_denominator};
+pub use coalitions::{Figures, Gate, MOST_COALITIONS, Passes, Pruning};
 pub use floor::{Floor, On, Place, Spot};
 pub use ground::{Asked, MOST_PAIRED, MOST_PLANNED, Ways};
 pub use reader::{FAULTS, FaultsOfTeam};
+pub use trust::{FailureRates, Trust};
 pub use worker::{Row, drive_ms, pace, planning_ms, robot, steps};
 
 use super::capability::{Capability, CapabilitySet, Robot, Skill};
@@ -76,6 +80,8 @@ pub struct RobotSpec {
     pub name: String,
     /// Capabilities and their reliability.
     pub skills: Vec<Skill>,
+    /// How often uses of them fail.
+    pub fails: FailureRates,
     /// Start on the floor.
     pub start: Place,
 }
@@ -390,7 +396,9 @@ pub struct Scenario {
     pub slack_permille: u32,
     /// Whether a robot also gives a task back when it costs more than the second-best bid.
     pub second_best: bool,
-    /// The seed of the network's random numbers.
+    /// What bids take the reliability of capabilities to be.
+    pub trust: Trust,
+    /// The seed of the random numbers of the network, and of uses that fail.
     pub seed: u64,
 }
 

@@ -1,18 +1,20 @@
 //! Reading a team's file.
 
 mod places;
+mod skill;
 mod task;
 
 use super::{
     FORMAT, Fault, FaultKind, FaultTime, Formation, MANY, MAX_ROBOTS, Method, Quality, RobotSpec,
-    Row, Scenario, Stage, Ways,
+    Row, Scenario, Stage, Trust, Ways,
 };
 use crate::missions::faults::Expected;
 use crate::missions::reader::fields::{Fields, Reported, Sink, document, document_of_either};
 use crate::missions::{Diagnostic, MissionErrors, Spanned};
 use crate::names::{quoted, unknown};
-use crate::team::{Capability, CapabilitySet, Reliability, Skill};
+use crate::team::{Capability, CapabilitySet};
 use places::{Places, floor};
+use skill::{skill, skills};
 use std::ops::{Range, RangeInclusive};
 
 /// Value of `format` in files of a team's faults.
@@ -131,21 +133,32 @@ impl Scenario {
 fn scenario(mut fields: Fields<'_>, ways: Option<&Ways>) -> Option<Scenario> {
     let name = fields.text("name");
     let mut names = Names::default();
-    let skills = fields.optional_texts("skills").unwrap_or_default();
-    for it in &skills {
+    let known = fields.optional_texts("skills").unwrap_or_default();
+    for it in &known {
         skill(&fields, it, &mut names);
     }
     let network = network(fields.optional_table("network"));
     let floor = floor(&mut fields, ways, &mut names);
-    let robots = fields.tables_up_to("robot", true, MAX_ROBOTS).unwrap_or_default();
-    let robots: Vec<_> = robots.into_iter().map(|it| robot(it, &mut names)).collect();
+    // Where robots or tasks cannot be read no name of one is known, and nothing more is said.
+    let robots = fields.tables_up_to("robot", true, MAX_ROBOTS);
+    if robots.is_none() && fields.has("robot") {
+        fields.abandon();
+        return None;
+    }
+    let robots = robots.unwrap_or_default().into_iter();
+    let robots: Vec<_> = robots.map(|it| robot(it, &mut names)).collect();
     let auction = auction(fields.optional_table("auction"), &names);
-    let tasks = fields.tables_up_to("task", true, MANY).unwrap_or_default();
-    let tasks: Vec<_> = tasks.into_iter().map(|it| task::task(it, &mut names)).collect();
+    let tasks = fields.tables_up_to("task", true, MANY);
+    if tasks.is_none() && fields.has("task") {
+        fields.abandon();
+        return None;
+    }
+    let tasks = tasks.unwrap_or_default().into_iter();
+    let tasks: Vec<_> = tasks.map(|it| task::task(it, &mut names)).collect();
     let faults = fields.tables_up_to("fault", false, MANY).unwrap_or_default();
     let faults: Vec<_> = faults.into_iter().map(|it| fault(it, &names)).collect();
     fields.finish();
-    let (method, formation, auctioneer, slack_permille, second_best) = auction?;
+    let Auction { method, formation, auctioneer, slack_permille, second_best, trust } = auction?;
     Some(Scenario {
         name: name?.value,
         skills: names.skills,
@@ -159,28 +172,9 @@ fn scenario(mut fields: Fields<'_>, ways: Option<&Ways>) -> Option<Scenario> {
         auctioneer,
         slack_permille,
         second_best,
+        trust,
         seed: 0,
     })
-}
-
-/// The capability of a name, which is new or known.
-fn skill(fields: &Fields<'_>, name: &Spanned<String>, names: &mut Names) -> Option<Capability> {
-    let known = names.skills.iter().position(|it| *it == name.value);
-    let number = known.unwrap_or(names.skills.len());
-    let capability = u8::try_from(number).ok().and_then(Capability::new);
-    if name.value.is_empty() || name.value.contains(['|', ' ']) {
-        let message = format!("{} is no name of a skill", quoted(&name.value));
-        let help = "use a name without blanks and `|`";
-        fields.report(Diagnostic::new(name.span.clone(), message, "no name").help(help));
-        return None;
-    }
-    if capability.is_none() {
-        let message = format!("there are more than {} skills", Capability::COUNT);
-        fields.report(Diagnostic::new(name.span.clone(), message, "one too many"));
-    } else if known.is_none() {
-        names.skills.push(name.value.clone());
-    }
-    capability
 }
 
 /// The position of a name among known ones; reports it when it is not there.
@@ -228,10 +222,31 @@ fn network(fields: Result<Option<Fields<'_>>, Reported>) -> Option<Quality> {
     })
 }
 
-type Auction = (Method, Formation, Option<usize>, u32, bool);
+/// How tasks are given out.
+struct Auction {
+    method: Method,
+    formation: Formation,
+    auctioneer: Option<usize>,
+    slack_permille: u32,
+    second_best: bool,
+    trust: Trust,
+}
+
+impl Default for Auction {
+    fn default() -> Self {
+        Self {
+            method: Method::default(),
+            formation: Formation::default(),
+            auctioneer: None,
+            slack_permille: 1_000,
+            second_best: false,
+            trust: Trust::default(),
+        }
+    }
+}
 
 fn auction(fields: Result<Option<Fields<'_>>, Reported>, names: &Names) -> Option<Auction> {
-    let usual = (Method::Optimal, Formation::Central, None, 1_000, false);
+    let usual = Auction::default();
     let Some(mut fields) = fields.ok()? else { return Some(usual) };
     let method = one_of(&mut fields, "method", "method", Method::ALL.map(|it| (it.name(), it)));
     let formation = Formation::ALL.map(|it| (it.name(), it));
@@ -243,14 +258,16 @@ fn auction(fields: Result<Option<Fields<'_>>, Reported>, names: &Names) -> Optio
     };
     let slack = fields.optional_integer("slack_permille", 0..=1_000_000);
     let second_best = fields.optional_flag("second_best");
+    let trust = one_of(&mut fields, "trust", "trust", Trust::ALL.map(|it| (it.name(), it)));
     fields.finish();
-    Some((
-        method.ok()?.unwrap_or_default(),
-        formation.ok()?.unwrap_or_default(),
-        auctioneer.ok()?,
-        slack.ok()?.unwrap_or(1_000),
-        second_best.ok()?.unwrap_or(false),
-    ))
+    Some(Auction {
+        method: method.ok()?.unwrap_or(usual.method),
+        formation: formation.ok()?.unwrap_or(usual.formation),
+        auctioneer: auctioneer.ok()?,
+        slack_permille: slack.ok()?.unwrap_or(usual.slack_permille),
+        second_best: second_best.ok()?.unwrap_or(usual.second_best),
+        trust: trust.ok()?.unwrap_or(usual.trust),
+    })
 }
 
 /// A text out of a fixed set, which may be left out.
@@ -269,42 +286,10 @@ fn robot(mut fields: Fields<'_>, names: &mut Names) -> Option<RobotSpec> {
     let name = new_name(&mut fields, "robot", &mut names.robots);
     let at = fields.text("at");
     let start = names.places.place(&fields, at.as_ref());
-    let skills = fields.optional_texts("skills").ok();
-    let skills: Option<Vec<_>> =
-        skills.map(|it| it.iter().map(|it| skilled(&fields, it, names)).collect::<Vec<_>>());
+    let skills = skills(&mut fields, names);
     fields.finish();
-    Some(RobotSpec {
-        name: name?,
-        skills: skills?.into_iter().collect::<Option<_>>()?,
-        start: start?,
-    })
-}
-
-/// A skill and its reliability: `grasp`, `grasp 950/1000`, `grasp 19+1` (19 uses succeeded, one
-/// failed).
-fn skilled(fields: &Fields<'_>, text: &Spanned<String>, names: &mut Names) -> Option<Skill> {
-    let (name, reliability) = match text.value.split_once(' ') {
-        None => (text.value.as_str(), Some(Reliability::CERTAIN)),
-        Some((name, how)) => (name, reliability(how.trim())),
-    };
-    let Some(reliability) = reliability else {
-        let message = format!("{} says no reliability", quoted(&text.value));
-        let help = "write `grasp 950/1000` for a probability, `grasp 19+1` for 19 uses that \
-                    succeeded and one that failed";
-        fields.report(Diagnostic::new(text.span.clone(), message, "not a skill").help(help));
-        return None;
-    };
-    let name = Spanned { value: name.to_owned(), span: text.span.clone() };
-    let capability = skill(fields, &name, names)?;
-    Some(Skill { capability, reliability })
-}
-
-fn reliability(text: &str) -> Option<Reliability> {
-    if let Some(parts) = text.strip_suffix("/1000") {
-        return parts.parse().ok().filter(|it| *it <= 1_000).map(Reliability::Permille);
-    }
-    let (succeeded, failed) = text.split_once('+')?;
-    Some(Reliability::Uses { succeeded: succeeded.parse().ok()?, failed: failed.parse().ok()? })
+    let (skills, fails) = skills?;
+    Some(RobotSpec { name: name?, skills, fails, start: start? })
 }
 
 fn fault(mut fields: Fields<'_>, names: &Names) -> Option<Fault> {

@@ -3,8 +3,8 @@
 mod made;
 
 use super::{
-    Fault, FaultKind, FaultTime, Formation, Give, Method, Needs, Place, PlanSpec, RobotSpec,
-    RoleSpec, Row, Scenario, Stage, Take, TaskSpec, service,
+    FailureRates, Fault, FaultKind, FaultTime, Formation, Give, Method, Needs, Place, PlanSpec,
+    RobotSpec, RoleSpec, Row, Scenario, Stage, Take, TaskSpec, Trust, service,
 };
 use crate::team::service::{BRING, FETCH, ORDER};
 use crate::team::{Capability, CapabilitySet, Reliability, Role, Skill};
@@ -149,6 +149,12 @@ fn fault() -> impl Strategy<Value = Fault> {
         .prop_map(|(when, what)| Fault { when, what })
 }
 
+/// The rates of the skills that a robot has.
+fn fails(skills: &[Skill], rates: &[u16]) -> FailureRates {
+    let rated = skills.iter().map(|it| it.capability).zip(rates.iter().cycle());
+    rated.fold(FailureRates::NONE, |all, it| all.with(it.0, *it.1))
+}
+
 fn scenario() -> impl Strategy<Value = Scenario> {
     let reliability = prop_oneof![
         Just(Reliability::CERTAIN),
@@ -160,7 +166,9 @@ fn scenario() -> impl Strategy<Value = Scenario> {
         capability: Capability::new(number).unwrap(),
         reliability,
     });
-    let skills = prop::collection::vec(prop::collection::vec(skill, 0..4), 2..=4);
+    let rates = prop::collection::vec(prop_oneof![Just(0_u16), 0..=1_000_u16], 3);
+    let skills = (prop::collection::vec(skill, 0..4), rates);
+    let skills = prop::collection::vec(skills, 2..=4);
     let tasks = (task(0), task(1));
     let faults = prop::collection::vec(fault(), 0..4);
     let auction = (
@@ -169,10 +177,11 @@ fn scenario() -> impl Strategy<Value = Scenario> {
         prop::option::of(0_usize..2),
         0_u32..3_000,
         any::<bool>(),
+        prop::sample::select(Trust::ALL.to_vec()),
     );
     let ways = prop::collection::vec(1_u64..90_000, 3);
     (skills, tasks, faults, auction, ways).prop_map(|(skills, tasks, faults, auction, ways)| {
-        let (method, formation, auctioneer, slack_permille, second_best) = auction;
+        let (method, formation, auctioneer, slack_permille, second_best, trust) = auction;
         let ends = [(0, 1), (1, 2), (1, 3)];
         let ways: Vec<_> = ends.iter().zip(ways).map(|(it, mm)| (it.0, it.1, mm)).collect();
         Scenario {
@@ -180,8 +189,9 @@ fn scenario() -> impl Strategy<Value = Scenario> {
             skills: ["move", "hand", "claw"].map(str::to_owned).to_vec(),
             floor: super::Floor::new(&["a", "b b", "c", "ü"], &ways),
             robots: (skills.into_iter().enumerate())
-                .map(|(number, skills)| RobotSpec {
+                .map(|(number, (skills, rates))| RobotSpec {
                     name: format!("r{number}"),
+                    fails: fails(&skills, &rates),
                     skills,
                     start: Place(number),
                 })
@@ -194,6 +204,7 @@ fn scenario() -> impl Strategy<Value = Scenario> {
             auctioneer,
             slack_permille,
             second_best,
+            trust,
             seed: 0,
         }
     })

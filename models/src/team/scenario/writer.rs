@@ -2,6 +2,7 @@
 
 use super::{
     FAULTS, FORMAT, Fault, FaultKind, FaultTime, Give, Needs, RoleSpec, Scenario, Take, TaskSpec,
+    Trust,
 };
 use crate::team::{CapabilitySet, Reliability, Skill};
 use crate::toml_text::quoted;
@@ -78,12 +79,16 @@ impl Lines<'_> {
         }
         self.line("slack_permille", it.slack_permille);
         self.line("second_best", it.second_best);
+        if it.trust != Trust::default() {
+            self.line("trust", quoted(it.trust.name()));
+        }
         self.floor();
         for robot in &it.robots {
             self.head("[[robot]]");
             self.line("name", quoted(&robot.name));
             self.line("at", self.place(robot.start));
-            let skills: Vec<_> = robot.skills.iter().map(|it| self.skilled(it)).collect();
+            let skilled = |it: &Skill| self.skilled(it, robot.fails.of(it.capability));
+            let skills: Vec<_> = robot.skills.iter().map(skilled).collect();
             self.line("skills", format!("[{}]", skills.join(", ")));
         }
         it.tasks.iter().for_each(|it| self.task(it));
@@ -122,12 +127,19 @@ impl Lines<'_> {
         }
     }
 
-    /// A skill with its reliability, where that is not certain.
-    fn skilled(&self, skill: &Skill) -> String {
+    /// A skill with its reliability, where that is not certain; as a table where uses fail.
+    fn skilled(&self, skill: &Skill, fails: u16) -> String {
         let name = self.skill(skill.capability.number());
+        let table =
+            |known: &str| format!("{{ name = {}{known}, fails_permille = {fails} }}", quoted(name));
         match skill.reliability {
+            Reliability::CERTAIN if fails > 0 => table(""),
             Reliability::CERTAIN => quoted(name),
+            Reliability::Permille(parts) if fails > 0 => table(&format!(", permille = {parts}")),
             Reliability::Permille(parts) => quoted(&format!("{name} {parts}/1000")),
+            Reliability::Uses { succeeded, failed } if fails > 0 => {
+                table(&format!(", succeeded = {succeeded}, failed = {failed}"))
+            }
             Reliability::Uses { succeeded, failed } => {
                 quoted(&format!("{name} {succeeded}+{failed}"))
             }

@@ -1,7 +1,7 @@
 //! The auctioneer: it announces, awards, watches, and puts up again.
 
 use super::{Planted, World};
-use crate::fleet::allocate::{denominator, is_shared};
+use crate::fleet::allocate::{Allocator, denominator, is_shared};
 use crate::fleet::bid::{Offer, Share};
 use crate::fleet::message::{Award, Kind, Message, Party, Status};
 use crate::fleet::record::Record;
@@ -253,6 +253,9 @@ impl World<'_> {
         let bids: Vec<(usize, &[Offer])> = auction.bids.iter().map(|it| (it.0, &*it.1)).collect();
         let (chosen, second) = if auction.shares.is_empty() {
             let chosen = self.allocator.choose(self.scenario, &open, &waited, &bids);
+            let undue = undue(&mut self.allocator, self.scenario, (&open, &waited), &bids, &chosen);
+            let uses = undue.into_iter().filter_map(|it| self.robots[it].skills.risky_uses());
+            self.run.undue.extend(uses);
             let second = chosen.iter().map(|it| second_best(self.scenario, it, &bids)).collect();
             (chosen, second)
         } else {
@@ -345,6 +348,31 @@ impl World<'_> {
     }
 }
 
+/// The robots that are chosen for a task and would not be if all knew how often their skills fail.
+fn undue(
+    allocator: &mut Allocator,
+    scenario: &Scenario,
+    (open, waited): (&[usize], &[u64]),
+    bids: &[(usize, &[Offer])],
+    chosen: &[Share],
+) -> Vec<usize> {
+    let unlike = |it: &Offer| it.known_ms != it.cost_ms;
+    if !bids.iter().flat_map(|it| it.1).any(unlike) {
+        return Vec::new();
+    }
+    let known = |it: &Offer| Offer { cost_ms: it.known_ms, ..*it };
+    let known: Vec<(usize, Vec<Offer>)> =
+        bids.iter().map(|it| (it.0, it.1.iter().map(known).collect())).collect();
+    let known: Vec<(usize, &[Offer])> = known.iter().map(|it| (it.0, &*it.1)).collect();
+    let better = allocator.choose(scenario, open, waited, &known);
+    let has = |all: &[Share], task: usize, robot: usize| {
+        all.iter().any(|it| it.task == task && it.robots.iter().any(|it| it.robot == robot))
+    };
+    let members =
+        chosen.iter().flat_map(|it| it.robots.iter().map(|member| (it.task, member.robot)));
+    members.filter(|it| !has(&better, it.0, it.1)).map(|it| it.1).collect()
+}
+
 /// The second-best bid for a task of one robot, in ms.
 fn second_best(scenario: &Scenario, share: &Share, bids: &[(usize, &[Offer])]) -> Option<u64> {
     if !scenario.second_best || share.robots.len() != 1 {
@@ -352,7 +380,7 @@ fn second_best(scenario: &Scenario, share: &Share, bids: &[(usize, &[Offer])]) -
     }
     let costs = bids.iter().flat_map(|it| it.1.iter().map(move |offer| (it.0, offer)));
     let others = costs.filter(|it| {
-        it.1.task == share.task && it.1.plan == share.plan && it.0 != share.robots[0].0
+        it.1.task == share.task && it.1.plan == share.plan && it.0 != share.robots[0].robot
     });
     others.map(|it| u64::from(it.1.cost_ms)).min()
 }
@@ -360,7 +388,11 @@ fn second_best(scenario: &Scenario, share: &Share, bids: &[(usize, &[Offer])]) -
 /// The best of the coalitions that brokers bid, and what the second best costs.
 fn best_share(scenario: &Scenario, shares: &[Share]) -> (Vec<Share>, Vec<Option<u64>>) {
     let mut shares: Vec<&Share> = shares.iter().collect();
-    shares.sort_by_key(|it| (it.cost, it.robots.len(), it.robots.clone(), it.plan));
+    shares.sort_by(|one, other| {
+        let rest = |it: &Share| (it.robots.clone(), it.plan);
+        let reliable = || other.is_more_reliable(one);
+        one.cost.cmp(&other.cost).then_with(reliable).then_with(|| rest(one).cmp(&rest(other)))
+    });
     let Some(best) = shares.first() else { return (Vec::new(), Vec::new()) };
     let spec = &scenario.tasks[best.task];
     let parts = u64::from(denominator(spec));

@@ -7,8 +7,7 @@ use crate::fleet::bid::Share;
 use crate::fleet::message::{Award, AwardId, Ending, Message, Party};
 use crate::fleet::record::{Fate, Record};
 use cotama_core::team::RobotSet;
-use cotama_models::team::ErrorClass;
-use cotama_models::team::Pledge;
+use cotama_models::team::{ErrorClass, Pledge, Probability};
 use std::rc::Rc;
 
 /// Acknowledgements are waited for so long, in ms.
@@ -19,24 +18,36 @@ const MOST_AWARDS: u32 = 10;
 impl World<'_> {
     /// An award goes to its members; who they are.
     pub(super) fn award_to(&mut self, share: &Share, round: u32, second: Option<u64>) -> RobotSet {
-        let members = share.robots.iter().fold(0, |all: RobotSet, it| all | 1 << it.0);
+        let members = share.robots.iter().fold(0, |all: RobotSet, it| all | 1 << it.robot);
         // A partner waits for the slowest.
-        let slowest = share.robots.iter().map(|it| u64::from(it.1)).max().unwrap_or(0);
+        let slowest = share.robots.iter().map(|it| u64::from(it.cost_ms)).max().unwrap_or(0);
         let alone = share.robots.len() == 1 && self.scenario.second_best;
         let pledge = Pledge::of(slowest, second.filter(|_| alone), self.scenario.slack_permille);
         let pledges_ms = vec![pledge.most; share.robots.len()];
         let award = Rc::new(Award {
             id: AwardId { task: share.task, round },
             plan: share.plan,
-            robots: share.robots.iter().map(|it| it.0).collect(),
+            robots: share.robots.iter().map(|it| it.robot).collect(),
             pledges_ms: pledges_ms.clone(),
             members,
             auctioneer: self.auctioneer.address,
         });
         let plan = self.scenario.tasks[share.task].plans[share.plan].name.clone();
         let (task, robots) = (share.task, award.robots.clone());
-        let costs_ms = share.robots.iter().map(|it| it.1).collect();
-        self.note(|t_ms| Record::Awarded { t_ms, task, round, plan, robots, costs_ms, pledges_ms });
+        let costs_ms = share.robots.iter().map(|it| it.cost_ms).collect();
+        let certain = share.robots.iter().all(|it| it.success == Probability::ONE);
+        let success = share.robots.iter().filter(|_| !certain).map(|it| it.success.parts());
+        let success = success.collect();
+        self.note(|t_ms| Record::Awarded {
+            t_ms,
+            task,
+            round,
+            plan,
+            robots,
+            costs_ms,
+            pledges_ms,
+            success,
+        });
         self.run.awards[task] += 1;
         let ticket = &mut self.auctioneer.tickets[task];
         if let Some(before) = ticket.award.take() {

@@ -5,8 +5,8 @@ use super::{Event, World};
 use crate::fleet::allocate::is_shared;
 use crate::fleet::bid::{Offer, Whereabouts};
 use crate::fleet::message::{Message, Party};
-use cotama_models::team::CapabilitySet;
-use cotama_models::team::scenario::{Outlook, RoleSpec, Spot, Take};
+use cotama_models::team::scenario::{Outlook, Quote, RoleSpec, Spot, Take};
+use cotama_models::team::{CapabilitySet, Skill};
 use std::rc::Rc;
 
 /// A broker asks again after so long, in ms, and bids at the third time with what it has.
@@ -123,9 +123,14 @@ impl World<'_> {
         for task in tasks {
             for (plan, spec) in self.scenario.tasks[task].plans.iter().enumerate() {
                 for (role, spec) in spec.roles.iter().enumerate() {
-                    if let Some(cost_ms) = self.cost(robot, task, spec) {
-                        offers.push(Offer { task, plan, role, cost_ms });
-                    }
+                    let skills = &agent.skills;
+                    let quote = |skills| self.quote(robot, task, spec, skills);
+                    let Some(Quote { cost_ms, success }) = quote(skills.trusted()) else {
+                        continue;
+                    };
+                    let known = skills.risky_uses().and_then(|_| quote(skills.known()));
+                    let known_ms = known.map_or(cost_ms, |it| it.cost_ms);
+                    offers.push(Offer { task, plan, role, cost_ms, success, known_ms });
                 }
             }
         }
@@ -134,23 +139,24 @@ impl World<'_> {
 
     /// Returns the capabilities of a robot with regard to the object of a task.
     pub(super) fn able(&self, robot: usize, task: usize, role: &RoleSpec) -> CapabilitySet {
-        let able = self.robots[robot].capabilities;
+        let able = self.robots[robot].skills.capabilities();
         let takes = role.take == Take::Object && self.robots[robot].holds != Some(task);
         if takes { able.without(self.objects[task].hidden) } else { able }
     }
 
-    /// Returns the cost of a role for a robot, in ms; `None` where it cannot.
-    fn cost(&self, robot: usize, task: usize, role: &RoleSpec) -> Option<u32> {
+    /// Returns the bid of a robot for a role; `None` where it cannot.
+    fn quote(&self, robot: usize, task: usize, role: &RoleSpec, skills: &[Skill]) -> Option<Quote> {
         let agent = &self.robots[robot];
         let able = self.able(robot, task, role);
         let outlook = Outlook {
+            skills,
             able,
             from: agent.spot,
             pace: agent.driver.pace()?,
             ends: self.places(robot, task, role)?,
             holds: role.take == Take::Object && agent.holds == Some(task),
         };
-        self.scenario.cost_ms(robot, role, &outlook)
+        self.scenario.quote(role, &outlook)
     }
 
     /// Returns the spots where a robot takes and gives in a role; `None` where the object is

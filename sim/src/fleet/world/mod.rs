@@ -1,5 +1,6 @@
 //! A run: robots, auctioneer and network, from event to event.
 
+mod acting;
 mod auctioneer;
 mod awards;
 mod bidding;
@@ -13,6 +14,7 @@ use super::driver::Driver;
 use super::message::{Ending, Letter, Message, Party};
 use super::network::Network;
 use super::record::{Fate, Record, Run};
+use super::skills::Skills;
 use crate::fleet::bid::{Object, Whereabouts};
 use crate::kernel::Queue;
 use crate::streams::Streams;
@@ -86,9 +88,11 @@ pub(super) struct World<'s> {
 impl<'s> World<'s> {
     pub(super) fn new(scenario: &'s Scenario, recorded: bool, planted: Option<Planted>) -> Self {
         let tasks = scenario.tasks.len();
+        let streams = Streams::new(scenario.seed);
         let agent = |spec: &cotama_models::team::scenario::RobotSpec| {
             let driver = Driver::new(false);
-            Agent::new(driver, Spot::at(spec.start), spec.capabilities())
+            let skills = Skills::new(spec, &scenario.skills, scenario.trust, streams);
+            Agent::new(driver, Spot::at(spec.start), skills)
         };
         let lies = |it: &cotama_models::team::scenario::TaskSpec| Object {
             at: Whereabouts::Lies(Spot::at(it.start)),
@@ -98,7 +102,7 @@ impl<'s> World<'s> {
             scenario,
             now: 0,
             queue: Queue::new(),
-            network: Network::new(scenario.network, Streams::new(scenario.seed)),
+            network: Network::new(scenario.network, streams),
             robots: scenario.robots.iter().map(agent).collect(),
             auctioneer: Auctioneer::new(scenario),
             allocator: Allocator::default(),
@@ -166,6 +170,7 @@ impl<'s> World<'s> {
         (self.run.messages, self.run.lost) = (self.network.sent(), self.network.lost());
         let energy = self.robots.iter().map(|it| it.driver.energy_mj(self.now));
         self.run.energy_mj = energy.sum();
+        self.run.skills = self.skill_uses();
         self.run.out = self.robots.iter().filter(|it| !it.is_fit()).count();
         (self.run, self.records.unwrap_or_default())
     }

@@ -5,17 +5,18 @@ use crate::fleet::bid::Offer;
 use crate::fleet::driver::Driver;
 use crate::fleet::message::{Award, AwardId, Ending, Message, Party, Status};
 use crate::fleet::record::Record;
+use crate::fleet::skills::Skills;
 use cotama_core::team::RobotSet;
 use cotama_models::team::ErrorClass;
+use cotama_models::team::Pledge;
 use cotama_models::team::scenario::{Row, Spot, Stage};
-use cotama_models::team::{CapabilitySet, Pledge};
 use std::rc::Rc;
 
 /// A robot.
 #[derive(Clone, Debug)]
 pub(super) struct Agent {
     pub(super) driver: Driver,
-    pub(super) capabilities: CapabilitySet,
+    pub(super) skills: Skills,
     /// The spot where it stands, or began to drive.
     pub(super) spot: Spot,
     /// The spots where it takes and gives in its task.
@@ -77,6 +78,10 @@ pub(super) struct Work {
     pub(super) handed: bool,
     /// How often the same error was answered.
     pub(super) repeats: u32,
+    /// What is taken or given at this stage has been, and no skill of it has failed.
+    pub(super) acted: bool,
+    /// How often a skill failed at this stage.
+    pub(super) failures: u32,
 }
 
 impl Work {
@@ -86,10 +91,10 @@ impl Work {
 }
 
 impl Agent {
-    pub(super) fn new(driver: Driver, spot: Spot, capabilities: CapabilitySet) -> Self {
+    pub(super) fn new(driver: Driver, spot: Spot, skills: Skills) -> Self {
         Self {
             driver,
-            capabilities,
+            skills,
             spot,
             goals: [spot; 2],
             stage: Stage::Rests,
@@ -240,10 +245,17 @@ impl World<'_> {
         let acked = early.fold(1 << robot, |all: RobotSet, it: RobotSet| all | it);
         agent.early.clear();
         agent.taken = round;
-        let (since, handed, repeats) = (self.now, false, 0);
-        let own = Rc::clone(award);
-        agent.duty =
-            Duty::Waiting(Work { award: own, role, acked, until_ms, since, handed, repeats });
+        agent.duty = Duty::Waiting(Work {
+            award: Rc::clone(award),
+            role,
+            acked,
+            until_ms,
+            since: self.now,
+            handed: false,
+            repeats: 0,
+            acted: false,
+            failures: 0,
+        });
         self.acknowledge(robot, award);
         self.start_if_all_acked(robot);
     }

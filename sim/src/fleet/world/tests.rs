@@ -3,10 +3,11 @@
 use super::auctioneer::State;
 use super::{LEASE, World};
 use crate::fleet::Kind;
-use crate::fleet::bid::{Offer, Share};
+use crate::fleet::bid::{Member, Offer, Share};
 use crate::fleet::message::{AwardId, Message};
 use crate::fleet::record::Record;
 use crate::fleet::scenarios::{FleetOptions, fleet};
+use cotama_models::team::Probability;
 use cotama_models::team::scenario::Scenario;
 
 /// Two robots, one task, a network that loses nothing.
@@ -19,13 +20,15 @@ fn two_robots() -> Scenario {
 fn awarded(scenario: &Scenario) -> (World<'_>, AwardId) {
     let mut world = World::new(scenario, true, None);
     world.open(0);
-    let robots = vec![(0, 100), (1, 100)];
+    let success = Probability::ONE;
+    let robots = [0, 1].map(|robot| Member { robot, cost_ms: 100, success }).to_vec();
     world.award_to(&Share { task: 0, plan: 0, robots, cost: 200 }, 1, None);
     (world, AwardId { task: 0, round: 1 })
 }
 
 fn bid(world: &mut World<'_>, robot: usize, cost_ms: u32) {
-    let offers = [Offer { task: 0, plan: 0, role: 0, cost_ms }].into();
+    let success = Probability::ONE;
+    let offers = [Offer { task: 0, plan: 0, role: 0, cost_ms, success, known_ms: cost_ms }].into();
     world.auctioneer_hears(robot, Message::Bid { round: 1, offers, coalition: None });
 }
 

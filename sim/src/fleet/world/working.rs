@@ -12,7 +12,7 @@ use cotama_models::team::{MOST_REPEATS, classify};
 
 impl World<'_> {
     /// Returns the role of a robot in its award.
-    fn role(&self, work: &Work) -> &RoleSpec {
+    pub(super) fn role(&self, work: &Work) -> &RoleSpec {
         let id = work.award.id;
         &self.scenario.tasks[id.task].plans[work.award.plan].roles[work.role]
     }
@@ -48,7 +48,7 @@ impl World<'_> {
         }
         self.robots[robot].next_round = None;
         self.hand_over(robot);
-        let done = self.hands_are_done(robot);
+        let done = self.hands_are_done(robot) && self.acts(robot);
         let now = self.now;
         let driven = self.robots[robot].driver.round(now, done);
         if let Some(mode) = driven.found
@@ -141,6 +141,9 @@ impl World<'_> {
         let (now, agent) = (self.now, &mut self.robots[robot]);
         let same = agent.stage == stage;
         (agent.stage, agent.stage_since) = (stage, now);
+        if let Some(work) = agent.work_mut().filter(|_| !same) {
+            (work.acted, work.failures) = (false, 0);
+        }
         let task = agent.work().map(|it| it.award.id.task);
         if !same || stage != Stage::Rests {
             self.note(|t_ms| Record::Stage { t_ms, robot, task, stage });
@@ -219,7 +222,7 @@ impl World<'_> {
         let Some((giver, taker, since)) = self.exchange(robot) else { return };
         let Some(work) = self.robots[giver].work() else { return };
         let (task, due) = (work.award.id.task, since + self.role(work).give_ms);
-        if self.now < due || work.handed {
+        if self.now < due || work.handed || !self.exchange_works(giver, taker) {
             return;
         }
         self.take(taker, task);
@@ -295,7 +298,7 @@ impl World<'_> {
     }
 
     /// Returns the expected cost of the role under way, with the time spent, in ms.
-    fn estimate(&self, robot: usize) -> Option<u64> {
+    pub(super) fn estimate(&self, robot: usize) -> Option<u64> {
         let agent = &self.robots[robot];
         let Duty::Executing(work) = &agent.duty else { return None };
         let role = self.role(work);
@@ -305,13 +308,26 @@ impl World<'_> {
         let [takes, gives] = agent.goals;
         let second = drive_ms(self.scenario.floor.distance(takes, gives)?, pace);
         let left = agent.driver.left_mm(self.now) * 1_000 / pace;
+        let spent = self.now - work.since;
         let rest = match agent.stage {
-            Stage::ToTake => left + role.take_ms + second + role.give_ms,
-            Stage::Takes => role.take_ms + second + role.give_ms,
-            Stage::ToGive => left + role.give_ms,
-            _ => 0,
+            Stage::ToTake => [left, role.take_ms, second, role.give_ms],
+            Stage::Takes => [0, role.take_ms, second, role.give_ms],
+            Stage::ToGive => [0, 0, left, role.give_ms],
+            // To give again costs as much again.
+            Stage::Gives if !agent.skills.is_certain() => [0, 0, 0, role.give_ms],
+            _ => [0; 4],
         };
-        Some(self.now - work.since + rest)
+        if agent.skills.is_certain() {
+            return Some(spent + rest.iter().sum::<u64>());
+        }
+        let task = work.award.id.task;
+        let able = self.able(robot, task, role);
+        if !role.possible(able) {
+            return None;
+        }
+        let usable = agent.skills.trusted().iter().filter(|it| able.has(it.capability));
+        let usable: Vec<_> = usable.copied().collect();
+        Some(spent + u64::from(role.quote(&usable, rest)?.cost_ms))
     }
 
     /// The class of an error after which this robot cannot do the task.

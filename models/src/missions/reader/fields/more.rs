@@ -7,6 +7,12 @@ use crate::names::nearest;
 use std::ops::RangeInclusive;
 use toml::de::DeValue;
 
+/// An entry of a list that has texts and tables.
+pub(crate) enum TextOrTable<'t> {
+    Text(Spanned<String>),
+    Table(Fields<'t>),
+}
+
 impl<'t> Fields<'t> {
     /// Returns the collector of errors.
     pub fn sink(&self) -> &'t Sink {
@@ -91,6 +97,24 @@ impl<'t> Fields<'t> {
         let items = self.items(key, node).ok_or(Reported)?;
         let texts: Vec<_> = items.iter().map(|item| self.text_of(key, item)).collect();
         texts.into_iter().collect::<Option<_>>().ok_or(Reported)
+    }
+
+    /// A list of texts and of tables, which may be left out or empty.
+    pub(crate) fn optional_texts_and_tables(
+        &mut self,
+        key: &'static str,
+    ) -> Result<Vec<TextOrTable<'t>>, Reported> {
+        let Some(node) = self.optional(key) else { return Ok(Vec::new()) };
+        let items = self.items(key, node).ok_or(Reported)?;
+        let read = |item: &'t super::Node<'t>| {
+            if item.get_ref().as_table().is_some() {
+                self.table_of(key, item, &format!("this entry of `{key}`")).map(TextOrTable::Table)
+            } else {
+                self.text_of(key, item).map(TextOrTable::Text)
+            }
+        };
+        let entries: Vec<_> = items.into_iter().map(read).collect();
+        entries.into_iter().collect::<Option<_>>().ok_or(Reported)
     }
 
     /// A required list of lists of texts; at most `most` of them.
