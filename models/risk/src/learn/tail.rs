@@ -1,6 +1,6 @@
 //! Counts for the last levels of the walk over subsets, all at once: a cell is a table of their
-//! states, with a place for the sum over each of them. All sums of some cells side by side are made,
-//! and all subsets of these levels read what they need.
+//! states, with a place for the sum over each of them. All sums of some cells side by side are
+//! made, and all subsets of these levels read what they need.
 
 /// Cells that are counted side by side.
 pub(super) const LANES: usize = 8;
