@@ -6,6 +6,7 @@ pub(crate) mod axes_run;
 pub(crate) mod campaign;
 pub(crate) mod check;
 pub(crate) mod conform;
+pub(crate) mod curves;
 pub(crate) mod error;
 pub(crate) mod estimate;
 pub(crate) mod explain;

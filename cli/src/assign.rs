@@ -1,5 +1,7 @@
 //! `cotama assign`: which robots do which tasks.
 
+mod curves;
+
 use crate::answers::assign::{
     AssignAnswer, AssignStatus, Certificate, DoneRow, Fraction, GreedyRow, ProofRow,
     PruningCondition, PruningRow, TeamRow, WhyInfeasible,
@@ -21,7 +23,14 @@ use cotama_models::team::scenario::{Figures, Scenario};
 
 /// Solves one instance.
 pub(crate) fn assign(args: &AssignArgs, screen: &Screen) -> Result<Exit, Failure> {
-    let (instance, figures) = instance(&args.instance)?;
+    let path = match (args.curves, &args.instance) {
+        (None, Some(path)) => path,
+        (robots, _) => return curves::curves(args, robots.unwrap_or(0), screen),
+    };
+    if args.report.is_some() {
+        return Err(Failure::new("--report draws the curves of `cotama assign --curves`"));
+    }
+    let (instance, figures) = instance(path)?;
     let greedy = args.greedy.then(|| greedy(&instance)).transpose()?;
     let found = instance.solve(args.steps).map_err(|error| Failure::new(error.to_string()))?;
     let mut answer = answer(&instance, &found, greedy);
@@ -32,7 +41,7 @@ pub(crate) fn assign(args: &AssignArgs, screen: &Screen) -> Result<Exit, Failure
         let searched = matches!(answer.certificate, Certificate::Search { .. });
         let next = (answer.status == AssignStatus::Unknown && searched).then(|| {
             let steps = args.steps.saturating_mul(10);
-            format!("cotama assign {} --steps {steps}", quoted(&args.instance))
+            format!("cotama assign {} --steps {steps}", quoted(path))
         });
         screen.print(&render::assign::screen(&instance, &answer, next, screen.width()))?;
     }

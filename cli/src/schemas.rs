@@ -56,6 +56,7 @@ mod tests {
     use crate::answers::campaign::CampaignAnswer;
     use crate::answers::check::{CheckAnswer, StatespaceAnswer, VerifyAnswer};
     use crate::answers::conform::ConformAnswer;
+    use crate::answers::curves::CurvesAnswer;
     use crate::answers::error::ErrorAnswer;
     use crate::answers::estimate::EstimateAnswer;
     use crate::answers::explain::ExplainAnswer;
@@ -107,6 +108,7 @@ mod tests {
             ("run-two-ways", of::<WaysAnswer>()),
             ("allocate", of::<AllocateAnswer>()),
             ("assign", of::<AssignAnswer>()),
+            ("assign-curves", of::<CurvesAnswer>()),
             ("replay", of::<ReplayAnswer>()),
             ("models", of::<ModelsAnswer>()),
             ("simulate", of::<SimulateAnswer>()),

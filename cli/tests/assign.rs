@@ -2,6 +2,7 @@
 //! of the answer alone.
 
 use crate::common::{Ended, Folder, golden};
+use crate::schemas::validate;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -254,4 +255,44 @@ fn greedy_rounds_are_told_where_that_is_asked() {
     assert_eq!(indispensable["greedy"]["unserved"], 1);
     let plain = assign(&folder, &files("")[9], &["--json"]).json(0);
     assert_eq!(plain["greedy"], Value::Null);
+}
+
+/// Tables 3.1 and 3.2, Fig. 3.4, 3.5 and 3.8 of the thesis.
+#[test]
+fn curves_are_counted_shown_and_drawn() {
+    let folder = Folder::new("assign_curves");
+    let shown = folder.cotama(&["assign", "--curves", "8", "--report", "curves"]);
+    golden("assign_curves.txt", &shown.stdout);
+    let page = folder.read("curves/index.html");
+    assert!(page.contains("Fig. 3.8: work by the number of capable robots"));
+    let answer = folder.cotama(&["assign", "--json", "--curves", "8"]).json(0);
+    validate("assign-curves", &answer);
+    let four = &answer["growth"][2];
+    assert_eq!((&four["robots"], &four["coalitions"]), (&json!(4), &json!(15)));
+    assert_eq!(four["messages"], json!({ "singles": 16, "central": 28, "distributed": 60 }));
+    let rows = list(&answer["benchmark"]);
+    assert_eq!(rows.len(), (3..=9).sum::<usize>());
+    let half = rows.iter().find(|it| it["robots"] == 8 && it["capable"] == 4).unwrap();
+    assert_eq!((&half["capable_steps"], &half["busiest_steps"]), (&json!(224), &json!(72)));
+    let passed: Vec<_> = list(&half["conditions"]).iter().map(|it| &it["passed"]).collect();
+    assert_eq!(passed, [249, 240, 15]);
+}
+
+#[test]
+fn curves_take_no_instance_and_a_report_only_curves() {
+    let folder = Folder::new("assign_curves_refused");
+    for (line, said) in [
+        ("assign", "<INSTANCE>"),
+        ("assign --curves 17", "from 2 to 16"),
+        ("assign --curves 1", "from 2 to 16"),
+        ("assign --curves 4 --greedy", "--greedy"),
+        ("assign service --curves", "--curves"),
+        ("assign service --report out", "--curves"),
+        ("assign --curves 4 --report none/out", "mkdir -p none"),
+    ] {
+        let ended = folder.cotama(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""), "{line}");
+        assert!(ended.stderr.contains(said), "{line}: {}", ended.stderr);
+    }
+    assert!(folder.files(".").is_empty(), "nothing is written");
 }

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
 
-const COMMANDS: [&str; 29] = [
+const COMMANDS: [&str; 30] = [
     "list",
     "plan",
     "plan-axes",
@@ -15,6 +15,7 @@ const COMMANDS: [&str; 29] = [
     "run-team",
     "allocate",
     "assign",
+    "assign-curves",
     "replay",
     "models",
     "simulate",

@@ -3,6 +3,8 @@
 use super::Json;
 use super::number::whole;
 use clap::Args;
+use cotama_models::team::curves::MOST_ROBOTS;
+use std::path::PathBuf;
 
 /// The usual limit of a search over all tasks at once: some tens of seconds.
 const STEPS: u64 = 200_000_000;
@@ -38,13 +40,15 @@ Examples:
   $ cotama assign home.json
   $ cotama assign home.json --greedy
   $ cotama assign - --json < home.json
-  $ cotama assign service";
+  $ cotama assign service
+  $ cotama assign --curves 8 --report curves";
 
 #[derive(Args, Debug)]
 pub(crate) struct AssignArgs {
     /// The instance, a JSON file, or `-`; or a team at work, its file (TOML or JSON) or `service`
     /// or `fleet`
-    pub(crate) instance: String,
+    #[arg(required_unless_present = "curves")]
+    pub(crate) instance: Option<String>,
     /// The most steps of a search over all tasks at once
     #[arg(long, value_name = "N", default_value_t = STEPS)]
     #[arg(value_parser = whole(1, u64::MAX))]
@@ -52,6 +56,17 @@ pub(crate) struct AssignArgs {
     /// Also says what greedy rounds cost: task after task, first what is dearest to leave undone
     #[arg(long)]
     pub(crate) greedy: bool,
+    /// In place of an instance: how the work for one task grows with the robots, up to so many,
+    /// when all coalitions are looked at, as Rohrmueller does (2011, 3.4.4); how many messages are
+    /// sent; and what it saves to pass over coalitions that are not capable. Counts of steps, no
+    /// times
+    #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "12")]
+    #[arg(value_parser = whole(2, MOST_ROBOTS as u64))]
+    #[arg(conflicts_with_all = ["instance", "greedy", "steps"])]
+    pub(crate) curves: Option<u64>,
+    /// Also draws the curves as a page, `index.html` in this folder
+    #[arg(long, value_name = "DIR")]
+    pub(crate) report: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) json: Json,
 }

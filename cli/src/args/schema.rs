@@ -26,6 +26,8 @@ pub(crate) enum SchemaName {
     RunTwoWays,
     Allocate,
     Assign,
+    /// The answer of `assign --curves`
+    AssignCurves,
     Replay,
     Models,
     Simulate,

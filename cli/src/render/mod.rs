@@ -9,6 +9,7 @@ pub(crate) mod campaign;
 pub(crate) mod causes;
 pub(crate) mod check;
 pub(crate) mod conform;
+pub(crate) mod curves;
 pub(crate) mod estimate;
 pub(crate) mod explain;
 pub(crate) mod floor;

@@ -12,7 +12,8 @@
 //! coalition [is capable](capable), the [`failure_aware_cost`] that a robot bids, the [`Pledge`] of
 //! the winner, and the [`ErrorClass`] of what goes wrong. [`service`] is the thesis's drink
 //! service; `protocol` (feature `std`) is how robots agree on who does what, as nets. [`thesis`]
-//! has the thesis's own methods, with which answers are compared.
+//! has the thesis's own methods, with which answers are compared; `curves` (feature `std`) says how
+//! they grow with the team.
 //!
 //! No floating point, no heap: probabilities are counted in parts per 10⁹ and rounded down, costs
 //! are integers and rounded up, so that no robot promises more than it can hold.
@@ -20,6 +21,8 @@
 mod bid;
 mod capability;
 mod constraint;
+#[cfg(feature = "std")]
+pub mod curves;
 mod error_class;
 mod heterogeneity;
 #[cfg(feature = "std")]

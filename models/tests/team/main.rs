@@ -11,6 +11,8 @@ mod broken;
 mod choices;
 #[cfg(feature = "std")]
 mod conflicts;
+#[cfg(feature = "std")]
+mod curves;
 #[path = "../../../core/tests/common/draw.rs"]
 #[allow(unreachable_pub)]
 mod draw;

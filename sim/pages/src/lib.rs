@@ -1,9 +1,10 @@
-//! Pages that say what came of a mission, a team or a campaign, and pictures of an FMECA.
+//! Pages that say what came of a mission, a team or a campaign; curves, and pictures of an FMECA.
 //!
 //! | module | page |
 //! | --- | --- |
 //! | [`campaign`] | outcomes, causes and coverage of many runs |
 //! | [`causes`] | cause-effect diagrams of an FMECA |
+//! | [`curves`] | work and messages of coalitions, by the number of robots |
 //! | [`mission`] | a run: what was planned, what happened, what changed and why |
 //! | [`team`] | a run of a team: who did what when |
 //!
@@ -17,6 +18,8 @@
 mod axis;
 pub mod campaign;
 pub mod causes;
+mod chart;
+pub mod curves;
 mod format;
 mod frame;
 pub mod mission;

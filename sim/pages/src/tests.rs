@@ -6,6 +6,7 @@ use cotama_sim::options::{FaultChoice, Options};
 use cotama_sim::run::Outcome;
 use cotama_sim::trace::{Record, Trace};
 
+mod curves;
 mod data;
 mod layout;
 mod on_floor;

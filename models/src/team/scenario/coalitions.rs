@@ -120,6 +120,27 @@ pub struct Pruning {
     pub steps_union: u64,
 }
 
+impl Pruning {
+    /// Counts a coalition of so many robots, which meets conditions up to this one.
+    pub fn meet(&mut self, size: u64, passes: Passes) {
+        let assigned = |least: Passes| if passes >= least { size.pow(3) } else { 0 };
+        self.coalitions += 1;
+        self.union += u64::from(passes >= Passes::Union);
+        self.roles += u64::from(passes >= Passes::Roles);
+        self.matching += u64::from(passes >= Passes::Matching);
+        self.steps += size.pow(3);
+        self.steps_union += 2 * size + assigned(Passes::Union);
+        self.steps_roles += size.pow(2) + assigned(Passes::Roles);
+        self.steps_matching += size.pow(3) + assigned(Passes::Matching);
+    }
+
+    /// Returns the steps of the role assignments of capable coalitions alone, without those of any
+    /// condition.
+    pub fn steps_capable(&self) -> u64 {
+        self.steps_matching - self.steps
+    }
+}
+
 /// Figures of a team at its start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Figures {
@@ -194,15 +215,7 @@ impl Scenario {
         each(robots.len(), plan.roles.len(), &mut |members| {
             let set = members.iter().fold(0, |all, it| all | 1_u64.wrapping_shl(*it as u32));
             let passes = gate.passes(set);
-            let computed = |least: Passes| if passes >= least { size.pow(3) } else { 0 };
-            pruning.coalitions += 1;
-            pruning.union += u64::from(passes >= Passes::Union);
-            pruning.roles += u64::from(passes >= Passes::Roles);
-            pruning.matching += u64::from(passes >= Passes::Matching);
-            pruning.steps += size.pow(3);
-            pruning.steps_union += 2 * size + computed(Passes::Union);
-            pruning.steps_roles += size.pow(2) + computed(Passes::Roles);
-            pruning.steps_matching += size.pow(3) + computed(Passes::Matching);
+            pruning.meet(size, passes);
             if passes < Passes::Matching {
                 return;
             }

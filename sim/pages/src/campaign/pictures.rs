@@ -1,7 +1,8 @@
 //! Two drawings of a campaign: how the estimate settles, and where on the path runs end.
 
 use super::{between, share};
-use crate::axis::{Layout, NARROW, WIDE, draw_tick_labels, ticks};
+use crate::axis::{Layout, draw_tick_labels, ticks};
+use crate::chart::figure;
 use crate::format::{count, grouped};
 use crate::svg::{Svg, fixed};
 use cotama_campaign::results::Tally;
@@ -11,16 +12,6 @@ use std::fmt::Write;
 
 const TOP: f64 = 12.0;
 const BOTTOM: f64 = 172.0;
-
-/// A drawing for wide screens and one for narrow ones, under a title.
-fn figure(title: &str, unit: &str, draw: impl Fn(Layout) -> String) -> String {
-    format!(
-        "<figure><figcaption><h3>{title} <span class=\"unit\">{unit}</span></h3></figcaption>\n\
-         {}{}</figure>\n",
-        draw(WIDE),
-        draw(NARROW)
-    )
-}
 
 /// The estimate and its interval after each number of runs, which is drawn by its logarithm.
 pub(super) fn settles(tally: &Tally, sampling: Sampling, confidence: f64) -> String {
@@ -184,6 +175,7 @@ fn bars(tally: &Tally, path_mm: u64, layout: Layout) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::axis::WIDE;
 
     /// A tally of runs that end at these places: whether each breaks a requirement.
     fn tally(ends: &[(u64, bool)]) -> Tally {

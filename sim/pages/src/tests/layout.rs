@@ -43,7 +43,7 @@ fn texts(drawing: &str) -> ([f64; 2], Vec<Text>) {
 }
 
 /// Holds all drawings of a page against the two rules; how many texts there were.
-fn check_drawings(page: &str, of: &str) -> usize {
+pub(super) fn check_drawings(page: &str, of: &str) -> usize {
     let mut count = 0;
     for class in ["wide", "narrow"] {
         for drawing in page.split(&format!("<svg class=\"{class}\"")).skip(1) {
