@@ -18,6 +18,7 @@ mod codes;
 mod decider;
 mod declared;
 mod executive;
+mod inference;
 mod level;
 mod models;
 mod on_time;

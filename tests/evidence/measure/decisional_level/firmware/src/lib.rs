@@ -1,6 +1,11 @@
-//! The entry points of the decisional level, and of teams of eight robots: linked alone, each keeps
-//! its own code and tables only.
+//! The entry points of the decisional level, of teams of eight robots, and of posteriors: linked
+//! alone, each keeps its own code and tables only.
 #![no_std]
+
+#[path = "../../../../no_std/src/asia.rs"]
+mod asia;
+#[path = "../../../../no_std/src/two_ways.rs"]
+mod two_ways;
 
 use core::panic::PanicInfo;
 use cotama_core::allocation::MemoryError;
@@ -12,6 +17,7 @@ use cotama_core::team::winners::{
 };
 use cotama_core::team::{AssignmentError, Bottleneck, Costs, Fixed, Team, assign, bottleneck};
 use cotama_core::units::{Micros, Millis};
+use cotama_inference::{Answer, NoAnswer, Query};
 use cotama_models::level::{Drive, Perceived, Requests, Round, Rows, Told};
 use cotama_models::missions::tables::Rest;
 use cotama_printed::{Careful, Level as Supervisors};
@@ -70,6 +76,27 @@ entries! {
     robot_joint(
         team: &Team<'_>, memory: WinnersMemory<'_, 8>, steps: u64
     ) -> Result<Solved, MemoryError> = Winners::new(memory).solve(team, steps);
+    /// Asia: lung given dyspnoea and an X-ray.
+    robot_asia(evidence: &[u8; 2]) -> Found<2> =
+        found::<{ asia::QUERY.scratch }, 2>(&asia::QUERY, evidence);
+    /// Two ways: the ratio of objects given a trial.
+    robot_two_ways(evidence: &[u8; 4]) -> Found<5> =
+        found::<{ two_ways::QUERY.scratch }, 5>(&two_ways::QUERY, evidence);
+}
+
+/// The two queries.
+pub const QUERIES: [Query<'_>; 2] = [asia::QUERY, two_ways::QUERY];
+
+/// Probabilities in units of 2⁻³⁰, and that of the evidence.
+pub type Found<const STATES: usize> = Result<([u32; STATES], Answer), NoAnswer>;
+
+fn found<const CELLS: usize, const STATES: usize>(
+    query: &Query<'_>,
+    evidence: &[u8],
+) -> Found<STATES> {
+    let (mut scratch, mut posterior) = ([0; CELLS], [0; STATES]);
+    let answer = query.answer(evidence, &mut scratch, &mut posterior)?;
+    Ok((posterior, answer))
 }
 
 /// Memory for eight robots and four tasks of two roles.

@@ -4,24 +4,22 @@
 #![no_std]
 #![no_main]
 
+mod depth;
 #[allow(dead_code)]
 #[path = "../../../../../../core/tests/common/draw.rs"]
 mod draw;
 
 use core::hint::black_box;
-use core::ptr::{read_volatile, write_volatile};
 use cortex_m_rt::entry;
 use cotama_core::team::winners::WinnersMemory;
 use cotama_core::team::{Combine, Cost, Costs, Fixed, Plan, Task, Team, is_least};
+use depth::depth;
 use draw::Draw;
 use entries::{TeamRoom, robot_assign, robot_bottleneck, robot_joint};
 use semihosting::println;
 
 /// Instances of each kind; of all tasks at once a tenth.
 const EACH: u64 = 2_500;
-/// So much of the stack is looked at.
-const DEPTH: usize = 24 * 1024;
-const PAINT: u32 = 0x5AA5_C33C;
 
 /// The emulator looks for this function by its name.
 // `no_mangle` counts as unsafe because two equal names would meet at link time: no other
@@ -38,21 +36,6 @@ fn counted<R>(act: impl FnOnce() -> R) -> R {
     let answer = black_box(act());
     icount_mark();
     answer
-}
-
-/// How deep the stack goes below its caller in a call, in bytes.
-#[inline(never)]
-fn depth(act: impl FnOnce()) -> usize {
-    let here = 0_u32;
-    let top = (&raw const here as usize - 256) & !3;
-    let paint = |at: usize| (top - at) as *mut u32;
-    // SAFETY: this is the unused part of the stack, of which the linker leaves far more; nothing
-    // else runs.
-    (4..DEPTH).step_by(4).for_each(|at| unsafe { write_volatile(paint(at), PAINT) });
-    act();
-    // SAFETY: as above.
-    let used = (4..DEPTH).step_by(4).rev().find(|at| unsafe { read_volatile(paint(*at)) } != PAINT);
-    used.map_or(0, |it| it + 256)
 }
 
 /// A table of eight rows: costs to the most, so many percent missing.
