@@ -142,7 +142,7 @@ Examples:
   $ cotama run patrol --lost laser:1 --allocator exact --json
   $ cotama run patrol --trace patrol.jsonl && cotama replay patrol.jsonl
   $ cotama run delivery --fidelity plane --mcap delivery.mcap --csv delivery.csv")]
-    Run(RunArgs),
+    Run(Box<RunArgs>),
     /// Solves a bare allocation problem, without a mission
     ///
     /// One candidate is chosen for each activity, so that both sums are at most the limits. The

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 /// Refuses places where nothing can be written, before the work begins.
 pub(crate) fn places(args: &RecordingArgs) -> Result<(), Failure> {
     let tum = args.tum.as_deref().map(poses);
-    let all = args.mcap.iter().chain(&args.csv).chain(tum.iter().flatten());
+    let all = args.mcap.iter().chain(&args.csv).chain(&args.indicators).chain(tum.iter().flatten());
     all.into_iter().try_for_each(|it| output::place(it))
 }
 
@@ -52,6 +52,9 @@ pub(crate) fn write(args: &RecordingArgs, trace: &Trace) -> Result<Vec<String>, 
     }
     if let Some(path) = &args.csv {
         put(path, cotama_recording::csv(trace).as_bytes())?;
+    }
+    if let Some(path) = &args.indicators {
+        put(path, cotama_recording::indicators(trace).map_err(refused)?.as_bytes())?;
     }
     if let Some(name) = &args.tum {
         let files = cotama_recording::tum(trace).map_err(refused)?;

@@ -29,7 +29,7 @@ fn a_run_in_the_plane_leaves_files_that_a_replay_makes_again() {
 #[test]
 fn files_of_poses_are_refused_for_a_run_on_a_line_and_nothing_is_written() {
     let folder = Folder::new("recording_line");
-    for option in ["--mcap", "--tum"] {
+    for option in ["--mcap", "--tum", "--indicators"] {
         let ended = folder.cotama(&["run", "delivery", option, "a"]);
         assert_eq!(ended.code, Some(2));
         let said = format!("error: {option} needs poses, and a robot on a line has none\n");
@@ -58,4 +58,27 @@ fn teams_and_places_that_cannot_be_written_are_refused() {
         assert!(ended.stderr.contains(says), "{line}: {}", ended.stderr);
     }
     assert_eq!(folder.files("."), [""; 0]);
+}
+
+#[test]
+fn indicators_of_a_run_become_a_network() {
+    let folder = Folder::new("recording_indicators");
+    for line in [
+        "run delivery --fidelity plane --no-report --indicators runs.csv --trace run.jsonl",
+        "replay run.jsonl --indicators again.csv",
+        "risk learn steps.csv --out delivery.bif",
+        "risk coherence delivery.bif",
+    ] {
+        if line.contains("learn") {
+            let steps = folder.cotama(&["risk", "discretise", "runs.csv", "--bins", "3"]);
+            folder.write("steps.csv", steps.stdout);
+        }
+        let ended = folder.cotama(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!(ended.code, Some(0), "{line}: {ended:?}");
+    }
+    let head = "map_uncertainty,pose_uncertainty,map_information,path_length,waypoints,\
+        angle_variance,angle_sum,voronoi_waypoints,speed,heading_variance\n";
+    let rows = folder.read("runs.csv");
+    assert!(rows.starts_with(head) && rows.lines().count() > 300);
+    assert_eq!(rows, folder.read("again.csv"));
 }

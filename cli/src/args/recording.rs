@@ -15,6 +15,10 @@ pub(crate) struct RecordingArgs {
     /// Writes the poses of a run in the plane for evo: NAME.truth.tum, NAME.odometry.tum
     #[arg(long, value_name = "NAME")]
     pub(crate) tum: Option<PathBuf>,
+    /// Writes ten indicators of a run in the plane at each of its samples, as CSV with the columns
+    /// of `cotama risk observe`; `--monitor-period 500` of `cotama run` takes two samples a second
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) indicators: Option<PathBuf>,
 }
 
 impl RecordingArgs {
@@ -26,6 +30,7 @@ impl RecordingArgs {
     /// The first of those that need poses.
     pub(crate) fn first_of_plane(&self) -> Option<&'static str> {
         let mcap = self.mcap.as_ref().map(|_| "--mcap");
-        mcap.or(self.tum.as_ref().map(|_| "--tum"))
+        let indicators = self.indicators.as_ref().map(|_| "--indicators");
+        mcap.or(self.tum.as_ref().map(|_| "--tum")).or(indicators)
     }
 }

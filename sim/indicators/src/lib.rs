@@ -3,8 +3,9 @@
 //!
 //! [`drive`] lets a robot localise itself, map, plan and avoid people on the way between the places
 //! of a floor, and samples ten indicators twice a second. [`to_csv`] makes a table of them, for
-//! `cotama risk discretise`, `learn` and `coherence`. Two floors come with it, [`SIDEWALK`] and
-//! [`PLAZA`], like the two situations of the thesis.
+//! `cotama risk discretise`, `learn` and `coherence`. [`follow`] does the same of a run that was
+//! recorded. Two floors come with it, [`SIDEWALK`] and [`PLAZA`], like the two situations of the
+//! thesis.
 //!
 //! # Readings
 //! - Map uncertainty and information are those of the 10 m by 10 m around the robot, of cells that
@@ -29,11 +30,16 @@
 #![allow(clippy::cast_sign_loss)] // what becomes a number is at least 0
 
 mod drive;
+mod follow;
 mod map;
+mod no_drive;
 mod sample;
+mod watch;
 
-pub use drive::{MAX_PEOPLE, MAX_S, NoDrive, Options, drive};
+pub use drive::{Options, drive};
+pub use follow::{Moment, follow};
 pub use map::{Around, CELL_M, MAX_CELLS, Map};
+pub use no_drive::{MAX_PEOPLE, MAX_S, NoDrive};
 pub use sample::{COLUMNS, Sample, WINDOW, to_csv};
 
 use cotama_floor::embedded::Embedded;

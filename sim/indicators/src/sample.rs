@@ -1,7 +1,7 @@
 //! Indicators of a robot at a moment.
 
 use core::f64::consts::{PI, TAU};
-use cotama_floor::{Field, Path, Point, Pose, Vector};
+use cotama_floor::{Field, Point, Pose, Vector};
 use std::fmt::Write;
 
 /// The columns, in the order of table 4.1 of Rohrmueller 2011.
@@ -54,9 +54,8 @@ pub(crate) struct OfPath {
 }
 
 impl OfPath {
-    /// A path that begins where the robot is.
-    pub(crate) fn new(path: &Path, pose: &Pose, room: &Field) -> Self {
-        let points = path.points();
+    /// The corners of a path that begins where the robot is.
+    pub(crate) fn new(points: &[Point], pose: &Pose, room: &Field) -> Self {
         let mut heading = pose.rotation.angle();
         let mut angles = points.windows(2).map(|ends| {
             let way = ends[1] - ends[0];
@@ -78,7 +77,7 @@ impl OfPath {
             around.into_iter().all(|it| it <= here + 0.1)
         };
         Self {
-            length: path.length(),
+            length: points.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum(),
             waypoints: later.len() as f64 / straight.max(0.5),
             angle,
             angle_sum,

@@ -10,7 +10,7 @@ pub(crate) struct Ground {
     /// The floor as sensors meet it.
     pub(crate) real: Held,
     /// The floor as the robot knows it.
-    charted: Held,
+    pub(crate) charted: Held,
     /// Corners of the path.
     pub(crate) path: Vec<Point>,
 }

@@ -1,5 +1,5 @@
 //! Recordings of runs for other tools: MCAP for Foxglove, Lichtblick and PlotJuggler, TUM poses
-//! for evo, comma-separated values for all others.
+//! for evo, comma-separated values for all others; indicators of a run for `cotama risk`.
 //!
 //! Each is a pure function of a [`Trace`](cotama_sim::trace::Trace): the same trace gives the same
 //! bytes, with the times of the run and no clock of a machine. Records of MCAP are written by hand
@@ -17,6 +17,7 @@ mod cdr;
 mod container;
 mod csv;
 mod ground;
+mod indicators;
 mod log;
 mod mcap;
 mod messages;
@@ -25,6 +26,7 @@ mod sensors;
 mod tum;
 
 pub use csv::{COLUMNS, csv};
+pub use indicators::{MAX_MOMENTS, indicators};
 pub use mcap::{MAX_SCANS, mcap};
 pub use tum::{Tum, tum};
 

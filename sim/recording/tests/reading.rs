@@ -4,7 +4,7 @@
 mod reader;
 
 use cotama_models::missions::{Mission, embedded};
-use cotama_recording::{NoRecording, csv, mcap, tum};
+use cotama_recording::{NoRecording, csv, indicators, mcap, tum};
 use cotama_sim::options::{Fidelity, Options};
 use cotama_sim::trace::{Pose, Record, Trace};
 use reader::{Cdr, File};
@@ -234,4 +234,24 @@ fn poses_of_both_kinds_have_the_same_times() {
         assert_eq!(mm, pose.at_mm);
         assert!((values[6] * values[6] + values[7] * values[7] - 1.0).abs() < 1e-8);
     }
+}
+
+#[test]
+fn indicators_are_a_row_for_each_pose_before_the_goal_from_the_tenth_on() {
+    let text = indicators(&PLANE).unwrap();
+    let rows: Vec<Vec<f64>> = text.lines().skip(1).map(numbers).collect();
+    let on_the_way = poses(&PLANE).iter().filter(|it| it.x_mm < 80_000).count();
+    assert_eq!(rows.len(), on_the_way - 9);
+    assert!(rows.iter().flatten().all(|it| it.is_finite()));
+    // Of 80 m the robot has driven some by then; it comes nearer to its goal, at up to 0.41 m/s.
+    let lengths: Vec<_> = rows.iter().map(|it| it[3]).collect();
+    assert!(lengths[0] < 80.0 && lengths[0] > 76.0, "{}", lengths[0]);
+    assert!(lengths.windows(2).all(|it| it[1] < it[0] + 0.5));
+    assert!(lengths.last().unwrap() < &1.0);
+    assert_eq!(indicators(&PLANE).unwrap(), text);
+    assert_eq!(indicators(&record(Fidelity::Line)), Err(NoRecording::Line));
+}
+
+fn numbers(line: &str) -> Vec<f64> {
+    line.split(',').map(|it| it.parse().unwrap()).collect()
 }
