@@ -82,8 +82,7 @@ pub(crate) struct PlanAnswer {
     /// How fast it may be so that an impact hurts nobody: what follows from its mass and from the
     /// mission's `impact_energy_max_mj`.
     pub(crate) speed_harmless_mm_s: u64,
-    /// How many plans there are, within the limits or not, as a decimal number; `more than 2^128`
-    /// beyond that.
+    /// How many plans there are, within the limits or not, in decimal; `more than 2^128` beyond.
     pub(crate) combinations: String,
     /// Objective of the plan: `paper`, `quality`, `min-energy` or `front`.
     pub(crate) objective: &'static str,
@@ -276,8 +275,7 @@ pub(crate) enum Outcome {
     Completed,
     /// The robot stopped safely, or never left.
     Safe,
-    /// All activities are done, but a limit is exceeded; or a supervised mission was not done after
-    /// an hour.
+    /// All activities are done beyond a limit; or a supervised mission was not done in an hour.
     Failed,
 }
 
@@ -388,6 +386,9 @@ pub(crate) struct RunBody {
     /// Actions of the supervisors; of a supervised mission alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) supervised: Option<supervised::Supervised>,
+    /// Margins that were held back, and whether the run kept within them; with margins alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) held: Option<risk::HeldAnswer>,
     /// The path of the report.
     pub(crate) report: Option<String>,
     /// The path of the trace.

@@ -1,12 +1,13 @@
 //! `cotama campaign`: many missions under drawn faults, and what comes of them.
 #![allow(clippy::cast_precision_loss)] // numbers of runs need no more than 52 bits
 
-use crate::answers::campaign::{
-    CampaignAnswer, DecisionRow, FailureRow, Measured, Outcomes, RequirementRow,
-};
+use crate::answers::campaign::{CampaignAnswer, DecisionRow, FailureRow, Outcomes, RequirementRow};
+use crate::answers::estimate::Measured;
+use crate::answers::risk::HeldAnswer;
 use crate::args::{CampaignArgs, PolicyName};
 use crate::exit::{Exit, Failure};
 use crate::margins;
+use crate::margins::watch::Watch;
 use crate::measurement;
 use crate::mission;
 use crate::output::{self, Screen};
@@ -69,6 +70,7 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
     }
     let mission = mission::loaded(&args.scenario, args.supervised.as_deref(), Some(screen))?;
     if args.compare {
+        held_back(args, &mission)?;
         return compared::compared(args, &mission, screen);
     }
     let policy = args.policy_for(&mission)?;
@@ -76,8 +78,8 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
     let settings = asked::settings(args, of, mission.source(), Some(&mission))?;
     let measured = args.measured.as_deref();
     let measured = measurement::of_run(measured, &mission, policy.fidelity)?;
-    let margins = margins::of_run(args.margins.as_deref())?;
-    let campaign = ready(&mission, policy, settings, (measured, margins))?;
+    let margins = held_back(args, &mission)?;
+    let campaign = ready(&mission, policy, settings, (measured, margins.clone()))?;
     let shard = args.shard.unwrap_or(Shard::ALL);
     let texts = (mission.source(), mission.text());
     let usual = args.policy().policy(mission.is_supervised(), STEPS);
@@ -86,7 +88,8 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
     let robot = mission.robot().map(RobotText::of);
     let floor = mission.way.as_ref().map(FloorText::of);
     let fidelity = policy.fidelity;
-    conduct(args, &Header { planner, robot, floor, fidelity, ..header }, &campaign, screen)
+    let header = Header { planner, robot, floor, fidelity, ..header };
+    conduct(args, &header, &campaign, margins.as_deref(), screen)
 }
 
 /// Runs a campaign over a team.
@@ -116,7 +119,7 @@ fn of_team(args: &CampaignArgs, team: &Chosen, screen: &Screen) -> Result<Exit, 
     let shard = args.shard.unwrap_or(Shard::ALL);
     let texts = (texts.0, texts.1.as_str());
     let header = Header::new(texts, &campaign.settings, args.policy().name(), shard);
-    conduct(args, &Header { floor, ..header }, &campaign, screen)
+    conduct(args, &Header { floor, ..header }, &campaign, None, screen)
 }
 
 /// Runs what is not stored yet, and answers.
@@ -124,9 +127,11 @@ fn conduct(
     args: &CampaignArgs,
     header: &Header,
     campaign: &Campaign<'_>,
+    margins: Option<&Calibration>,
     screen: &Screen,
 ) -> Result<Exit, Failure> {
     let shard = header.shard;
+    let mut watch = margins.map(Watch::new);
     let mut table = table(args, campaign)?;
     let mut test = Test::of(args, campaign)?;
     let (mut tally, mut store, mut done) = (Tally::default(), None, 0);
@@ -154,6 +159,7 @@ fn conduct(
                 if let Some((mission, table)) = &mut table {
                     table.add(mission, line.run, &line.observed.spent);
                 }
+                watch.iter_mut().for_each(|it| it.add(&line.observed.spent));
                 tally.add(line, text);
                 test.iter_mut().for_each(|it| it.add(!line.violated.is_empty()));
             }
@@ -174,8 +180,31 @@ fn conduct(
         table.write(path, screen)?;
     }
     let decision = test.map(|it| decision(&it, args, &tally));
-    let answer = finish(args, header, campaign, &tally, decision)?;
+    let held = watch.map(|it| it.held());
+    let answer = finish(args, header, campaign, &tally, (decision, held))?;
     ended(args, &answer, screen)
+}
+
+/// Returns the margins that the runs of a campaign hold back. Results that are kept, or compared,
+/// say nothing of them.
+fn held_back(args: &CampaignArgs, mission: &Mission) -> Result<Option<Arc<Calibration>>, Failure> {
+    let margins = margins::of_run(args.margins.as_deref(), mission)?;
+    let given = [
+        ("--compare", args.compare),
+        ("--out", args.out.is_some()),
+        ("--shard", args.shard.is_some()),
+    ];
+    let beside = given.into_iter().find(|it| it.1 && margins.is_some());
+    let Some((option, _)) = beside else { return Ok(margins) };
+    let message = match &args.margins {
+        Some(_) => format!("{option} goes without --margins: what it keeps says nothing of them"),
+        None => format!(
+            "{option} goes without margins, and `{}` names some: what it keeps says nothing of \
+             them",
+            mission.name
+        ),
+    };
+    Err(Failure::new(message).help(format!("leave {option} out, or say --margins none")))
 }
 
 fn ready(
@@ -237,11 +266,11 @@ fn finish(
     header: &Header,
     campaign: &Campaign<'_>,
     tally: &Tally,
-    decision: Option<DecisionRow>,
+    (decision, held): (Option<DecisionRow>, Option<HeldAnswer>),
 ) -> Result<CampaignAnswer, Failure> {
     let whole = header.shard.of == 1;
     // A file of faults says nothing of margins, without which the failure does not come back.
-    let shrinks = whole && args.margins.is_none();
+    let shrinks = whole && held.is_none();
     let most = args.shrink.unwrap_or(if shrinks { 20 } else { 0 });
     let most = usize::try_from(most).unwrap_or(0);
     let requirements = &campaign.settings.requirements;
@@ -283,6 +312,7 @@ fn finish(
         shrunk: findings.shrunk,
         shrinking_runs: findings.cost.0,
         decision,
+        held,
         digest: tally.digest(),
         policies: Vec::new(),
         report: None,

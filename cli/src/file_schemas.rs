@@ -359,6 +359,9 @@ fn run() -> Value {
     let period = integer(&PERIODS, "how often margins are looked at, in ms; 1,000");
     let seed =
         integer(&AT_LEAST_ZERO, "the seed of random numbers, unless `--seed` says another; 0");
-    let can = [&[("monitor_period_ms", period), ("seed", seed)][..], &happenings()].concat();
+    let margins =
+        text("a file of `cotama risk calibrate`, held back for what remains, beside this one");
+    let own = [("monitor_period_ms", period), ("seed", seed), ("margins", margins)];
+    let can = [&own[..], &happenings()].concat();
     table(&[], &can, "what goes wrong in this mission")
 }

@@ -1,5 +1,7 @@
 //! Margins learned from runs: their files, and tables of what activities took.
 
+pub(crate) mod watch;
+
 use crate::exit::Failure;
 use crate::input;
 use crate::kind::{self, Kind};
@@ -24,9 +26,31 @@ pub(crate) fn load(name: &str) -> Result<Calibration, Failure> {
     Ok(Calibration::parse(name, &text)?)
 }
 
-/// The margins of a run, where they are named.
-pub(crate) fn of_run(name: Option<&str>) -> Result<Option<Arc<Calibration>>, Failure> {
-    name.map(|it| load(it).map(Arc::new)).transpose()
+/// Returns the margins of a run: those that are named, else those that its mission names, from a
+/// file beside it; `none` are none.
+pub(crate) fn of_run(
+    name: Option<&str>,
+    mission: &Mission,
+) -> Result<Option<Arc<Calibration>>, Failure> {
+    let path = match (name, &mission.run.margins) {
+        (Some("none"), _) | (None, None) => return Ok(None),
+        (Some(name), _) => name.to_owned(),
+        (None, Some(_)) if mission.plans_by_wishes() => {
+            let message = format!("`ask` of `{}` says what its plans are for", mission.name);
+            let help = "leave `margins` of `[run]` out, or `ask`";
+            return Err(Failure::of(mission.source(), message).help(help));
+        }
+        (None, Some(name)) => {
+            let folder = Path::new(mission.source()).parent();
+            folder.map_or_else(|| name.clone(), |it| it.join(name).display().to_string())
+        }
+    };
+    Ok(Some(Arc::new(load(&path)?)))
+}
+
+/// Whether margins are named, and not refused.
+pub(crate) fn are_given(name: Option<&str>) -> bool {
+    name.is_some_and(|it| it != "none")
 }
 
 /// A table of runs that grows.

@@ -216,6 +216,7 @@ fn never_left(
         x_mm: 0,
         events: Vec::new(),
         supervised: None,
+        held: None,
         report: None,
         trace: None,
         recordings: Vec::new(),
@@ -249,7 +250,7 @@ fn options(args: &RunArgs, mission: &Mission) -> Result<Options, Failure> {
         ("--objective", args.objective.is_some()),
         ("--allocator", allocator.is_some()),
         ("--upward", args.upward),
-        ("--margins", args.margins.is_some()),
+        ("--margins", margins::are_given(args.margins.as_deref())),
     ];
     mission::beside_wishes(mission, &given)?;
     let objective = mission::objective(args.objective, allocator, mission);
@@ -264,7 +265,7 @@ fn options(args: &RunArgs, mission: &Mission) -> Result<Options, Failure> {
         fidelity: args.fidelity.into(),
         people: usize::try_from(args.people).unwrap_or(usize::MAX),
         measured: measurement::of_run(args.measured.as_deref(), mission, args.fidelity.into())?,
-        margins: margins::of_run(args.margins.as_deref())?,
+        margins: margins::of_run(args.margins.as_deref(), mission)?,
     })
 }
 

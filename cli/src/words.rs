@@ -33,6 +33,7 @@ impl Words {
         let fidelity = args.fidelity.to_possible_value().map(|it| it.get_name().to_owned());
         add("--fidelity", fidelity.filter(|it| it != "line"));
         add("--measured", args.measured.clone());
+        add("--margins", args.margins.clone());
         add("--report", args.report.as_ref().map(|it| it.display().to_string()));
         options.extend(args.upward.then_some(("--upward", None)));
         let people = Some(args.people).filter(|it| *it > 0).map(|it| it.to_string());

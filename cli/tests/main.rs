@@ -32,6 +32,7 @@ mod hints;
 mod hostile;
 mod idle_options;
 mod logs;
+mod margins;
 mod mistakes;
 mod models;
 mod new;

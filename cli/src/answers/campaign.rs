@@ -1,5 +1,7 @@
 //! The answer of `cotama campaign`.
 
+use super::estimate::Measured;
+use super::risk::HeldAnswer;
 #[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -41,6 +43,9 @@ pub(crate) struct CampaignAnswer {
     pub(crate) shrinking_runs: u64,
     /// Decision of a sequential test.
     pub(crate) decision: Option<DecisionRow>,
+    /// Margins that were held back, and how often runs passed them; with margins alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) held: Option<HeldAnswer>,
     /// A digest of the lines of results: equal for equal results.
     pub(crate) digest: String,
     /// The policies over the same plans, with `--compare`.
@@ -57,18 +62,6 @@ pub(crate) struct Outcomes {
     pub(crate) completed: u64,
     pub(crate) safe: u64,
     pub(crate) failed: u64,
-}
-
-/// An estimate with its interval: exact (Clopper and Pearson) for probabilities after a number of
-/// runs that was fixed before.
-#[derive(Clone, Copy, Debug, Serialize)]
-#[cfg_attr(test, derive(JsonSchema))]
-pub(crate) struct Measured {
-    pub(crate) estimate: f64,
-    pub(crate) low: f64,
-    pub(crate) high: f64,
-    /// How often such an interval holds the truth, at least.
-    pub(crate) confidence: f64,
 }
 
 /// A requirement of every run, with its counts.

@@ -1,6 +1,5 @@
 //! The answer of `cotama estimate`.
 
-use super::campaign::Measured;
 use super::check::{FiringRow, RestRow, VerdictName};
 use crate::args::Semantics;
 #[cfg(test)]
@@ -55,4 +54,16 @@ pub(crate) struct EstimateRow {
     pub(crate) trace: Option<Vec<FiringRow>>,
     /// How it goes on.
     pub(crate) rest: Option<RestRow>,
+}
+
+/// An estimate with its interval: exact (Clopper and Pearson) for probabilities after a number of
+/// runs that was fixed before.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct Measured {
+    pub(crate) estimate: f64,
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+    /// How often such an interval holds the truth, at least.
+    pub(crate) confidence: f64,
 }

@@ -1,6 +1,6 @@
 //! The answers of `cotama risk`.
 
-use super::campaign::Measured;
+use super::estimate::Measured;
 #[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -224,9 +224,24 @@ pub(crate) struct WatchedRow {
     pub(crate) runs: u64,
     /// Runs that passed the bound, or did not come to the end.
     pub(crate) missed: u64,
+    /// Their share, with its exact interval.
+    pub(crate) missed_share: Measured,
     /// The share that was promised within the bound, with an interval for that of one set of past
     /// runs.
     pub(crate) promised: Measured,
     /// After how many of these runs it was clear that more pass the bound than promised.
     pub(crate) broken_after: Option<u64>,
+}
+
+/// Margins that were held back in a run or a campaign, and what its runs made of their promise.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct HeldAnswer {
+    /// How often a rest is to stay within its bound, at least.
+    pub(crate) coverage: f64,
+    /// Whether the calibration holds, as far as these runs say. An alarm is wrong at most once in
+    /// 1,000 times.
+    pub(crate) holds: bool,
+    /// The promises, for each activity and axis.
+    pub(crate) watched: Vec<WatchedRow>,
 }

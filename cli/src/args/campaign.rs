@@ -74,8 +74,9 @@ pub(crate) struct CampaignArgs {
     /// Finds failures as runs by signals have, as in `cotama run`; each run draws
     #[arg(long, value_name = "FILE", conflicts_with_all = ["compare", "out", "shard"])]
     pub(crate) measured: Option<String>,
-    /// Holds back what the rest of the mission may take, as in `cotama run`
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["compare", "out", "shard"])]
+    /// Holds back what the rest of the mission may take, as in `cotama run`, says how often runs
+    /// passed it, and whether the promise holds; goes without --compare, --out and --shard
+    #[arg(long, value_name = "none|FILE")]
     pub(crate) margins: Option<String>,
     /// Writes what each activity of each run took, as CSV, for `cotama risk calibrate`; of at most
     /// 100000 runs
@@ -190,7 +191,7 @@ impl CampaignArgs {
         let given = [
             ("--objective", self.objective.is_some()),
             ("--allocator", self.allocator.is_some()),
-            ("--margins", self.margins.is_some()),
+            ("--margins", crate::margins::are_given(self.margins.as_deref())),
         ];
         mission::beside_wishes(mission, &given)?;
         let policy = self.policy().policy(mission.is_supervised(), self.steps);

@@ -95,8 +95,9 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) measured: Option<String>,
     /// Holds back what the rest of the mission may take: a file of `cotama risk calibrate`; the
-    /// mission is planned again when what is left is less [default: nothing beside the plan]
-    #[arg(long, value_name = "FILE")]
+    /// mission is planned again when what is left is less, and the run says whether it kept within;
+    /// or `none` [default: as the mission file says, else nothing beside the plan]
+    #[arg(long, value_name = "none|FILE")]
     pub(crate) margins: Option<String>,
     /// Writes what each activity took, as CSV, for `cotama risk calibrate`
     #[arg(long, value_name = "FILE.csv")]

@@ -52,6 +52,7 @@ pub(super) fn compared(
         shrunk: 0,
         shrinking_runs: 0,
         decision: None,
+        held: None,
         digest: String::new(),
         policies: rows,
         report: None,

@@ -89,6 +89,7 @@ mod tests {
             shrunk: 0,
             shrinking_runs: 0,
             decision: None,
+            held: None,
             digest: String::new(),
             policies: Vec::new(),
             report: None,

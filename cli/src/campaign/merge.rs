@@ -92,7 +92,7 @@ fn merged(
             store.append(*block, lines)?;
         }
     }
-    let answer = finish(args, whole, campaign, &tally, None)?;
+    let answer = finish(args, whole, campaign, &tally, (None, None))?;
     ended(args, &answer, screen)
 }
 

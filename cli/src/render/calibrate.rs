@@ -1,11 +1,12 @@
 //! The screen of `cotama risk calibrate`.
 #![allow(clippy::cast_precision_loss)] // numbers of runs need no more than 52 bits
 
-use super::numbers::grouped;
+use super::numbers::{count, grouped};
 use super::style::{BAD, FAINT, GOOD, HEADING, NAME, NOTICE};
 use super::table::{Cell, Table};
 use super::{visible, wrapped};
-use crate::answers::risk::{CalibrateAnswer, DriftRow, PromiseRow, WatchedRow};
+use crate::answers::estimate::Measured;
+use crate::answers::risk::{CalibrateAnswer, DriftRow, HeldAnswer, PromiseRow, WatchedRow};
 
 /// Returns the screen of bounds that were learned, or held against later runs.
 pub(crate) fn screen(answer: &CalibrateAnswer, width: usize) -> String {
@@ -60,28 +61,62 @@ fn learned(answer: &CalibrateAnswer, head: &str, width: usize) -> String {
 }
 
 fn watched(answer: &CalibrateAnswer, head: &str, holds: bool, width: usize) -> String {
-    let verdict = if holds {
+    let text = wrapped(&format!("{head}: {}", verdict(holds)), width, "") + "\n";
+    text + &table(answer.watched.iter(), width) + &alarm(&answer.watched, width)
+}
+
+/// Returns the block of margins that runs held back: the rest of the whole mission, and the promise
+/// that broke first.
+pub(crate) fn held(it: &HeldAnswer, width: usize) -> String {
+    let promise = percent(it.coverage);
+    let mut text = format!("\nmargins for {promise} %: {}\n\n", verdict(it.holds));
+    let first = it.watched.first().map_or("", |it| it.activity.as_str());
+    let broken = |it: &WatchedRow| it.broken_after.is_some();
+    let (mut shown, others): (Vec<_>, Vec<_>) =
+        it.watched.iter().partition(|it| it.activity == first);
+    if !shown.iter().any(|it| broken(it)) {
+        shown.extend(others.iter().filter(|it| broken(it)).min_by_key(|it| it.broken_after));
+    }
+    text += &table(shown.into_iter(), width);
+    if !others.is_empty() {
+        let of = |kind: &dyn Fn(&WatchedRow) -> bool| others.iter().filter(|it| kind(it)).count();
+        // Of one run it is plain which were missed; of many most are, now and then.
+        let what = match it.watched.iter().map(|it| it.runs).max() {
+            Some(0 | 1) => format!("{} missed", of(&|it| it.missed > 0)),
+            _ => format!("{} broken", of(&broken)),
+        };
+        let later = count(others.len() as u64, "promise");
+        let line = format!("and {later} from later activities on, {what}: see --json");
+        text += &wrapped(&format!("{FAINT}{line}{FAINT:#}"), width, "  ");
+    }
+    text + &alarm(&it.watched, width)
+}
+
+fn verdict(holds: bool) -> String {
+    if holds {
         format!("{GOOD}the calibration holds{GOOD:#}")
     } else {
         format!("{BAD}the calibration no longer holds{BAD:#}")
+    }
+}
+
+fn table<'r>(rows: impl Iterator<Item = &'r WatchedRow>, width: usize) -> String {
+    let names = ["from", "", "promised", "", "within", "missed", "", ""];
+    let mut table = Table::new(vec![names.map(Cell::faint).to_vec()]).left(1).left(7);
+    rows.for_each(|it| table.row(row(it)));
+    table.render(width)
+}
+
+fn alarm(watched: &[WatchedRow], width: usize) -> String {
+    let Some(after) = watched.iter().filter_map(|it| it.broken_after).min() else {
+        return String::new();
     };
-    let mut text = wrapped(&format!("{head}: {verdict}"), width, "") + "\n";
-    let names = ["from", "", "within", "promised", "", "missed", ""];
-    let mut table = Table::new(vec![names.map(Cell::faint).to_vec()]).left(1).left(6);
-    for it in &answer.watched {
-        table.row(row(it));
-    }
-    text += &table.render(width);
-    let broken = answer.watched.iter().filter_map(|it| it.broken_after).min();
-    if let Some(after) = broken {
-        let line = format!(
-            "more runs passed their bound than runs like those of the calibration do, said after \
-             {} of them and wrongly at most once in 1 000 tables: learn it anew",
-            grouped(&after.to_string())
-        );
-        text += &wrapped(&line, width, "");
-    }
-    text
+    let line = format!(
+        "more runs passed their bound than runs like those of the calibration do, said after {} \
+         of them and wrongly at most once in 1 000 tables: learn it anew",
+        grouped(&after.to_string())
+    );
+    wrapped(&line, width, "")
 }
 
 fn row(it: &WatchedRow) -> Vec<Cell> {
@@ -90,17 +125,19 @@ fn row(it: &WatchedRow) -> Vec<Cell> {
         || Cell::plain(""),
         |after| Cell::new(format!("broken, after {}", grouped(&after.to_string())), BAD),
     );
+    let between = |it: &Measured| format!("{} to {}", percent(it.low), percent(it.high));
     vec![
         Cell::new(visible(&it.activity), NAME),
         Cell::plain(it.axis),
-        Cell::plain(format!("{} %", percent(within))),
         Cell::plain(format!("{} %", percent(it.promised.estimate))),
-        Cell::faint(format!("{} to {}", percent(it.promised.low), percent(it.promised.high))),
+        Cell::faint(between(&it.promised)),
+        Cell::plain(format!("{} %", percent(within))),
         Cell::plain(format!(
             "{} of {}",
             grouped(&it.missed.to_string()),
             grouped(&it.runs.to_string())
         )),
+        Cell::faint(between(&it.missed_share)),
         said,
     ]
 }

@@ -1,11 +1,13 @@
 //! The screen of a campaign.
 #![allow(clippy::cast_precision_loss)] // shares of runs need no more than 52 bits
 
+use super::calibrate::held;
 use super::numbers::{count, grouped};
 use super::style::{BAD, FAINT, GOOD, NAME, PLAIN};
 use super::table::{Cell, Table};
 use super::visible;
-use crate::answers::campaign::{CampaignAnswer, DecisionRow, Mean, Measured, PolicyRow};
+use crate::answers::campaign::{CampaignAnswer, DecisionRow, Mean, PolicyRow};
+use crate::answers::estimate::Measured;
 use crate::names::quoted;
 use std::fmt::Write;
 
@@ -42,6 +44,7 @@ pub(crate) fn screen(answer: &CampaignAnswer, width: usize) -> String {
         ]);
     }
     text += &table.render(usize::MAX);
+    text += &answer.held.as_ref().map_or_else(String::new, |it| held(it, width));
     causes(&mut text, answer);
     if let Some(it) = answer.decision {
         text.push_str(&decided(it, answer.failing));

@@ -1,6 +1,7 @@
 //! The screen of `cotama run`: the plans as in Table 7 of Lambert et al. 2024, the margins over the
 //! run, what happened.
 
+use super::calibrate::held;
 use super::numbers::{count, joules, metres, milli, seconds};
 use super::reason::reason;
 use super::sparkline::{marks, sparkline};
@@ -37,6 +38,7 @@ pub(crate) fn screen(
         text += &margins(body, trace, width);
     }
     text += &events(body, width);
+    text += &body.held.as_ref().map_or_else(String::new, |it| held(it, width));
     if let Some(why) = &body.infeasible {
         text.push('\n');
         text += &reason(why, width);

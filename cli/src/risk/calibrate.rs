@@ -1,10 +1,11 @@
 //! `cotama risk calibrate`: margins learned from runs, and held against later ones.
 
 use super::cells;
-use crate::answers::risk::{CalibrateAnswer, DriftRow, PromiseRow, WatchedRow};
+use crate::answers::risk::{CalibrateAnswer, DriftRow, PromiseRow};
 use crate::args::CalibrateArgs;
 use crate::exit::{Exit, Failure};
 use crate::input;
+use crate::margins::watch::{CONFIDENCE, Watch};
 use crate::margins::{self, COLUMNS};
 use crate::names::near;
 use crate::output::{self, Screen};
@@ -12,13 +13,6 @@ use crate::render;
 use cotama_campaign::statistics::Promise;
 use cotama_models::margins::{Calibration, Spent};
 use cotama_risk::Cells;
-
-/// The axes, in their order.
-const AXES: [&str; 2] = ["duration", "energy"];
-/// How seldom a calibration that holds is said not to, at least.
-const ERROR: f64 = 0.001;
-/// How often the interval of the coverage holds it.
-const CONFIDENCE: f64 = 0.95;
 
 /// Runs of a mission: for each what its activities took.
 struct Runs {
@@ -102,47 +96,18 @@ fn learnt(learned: &Calibration, runs: &Runs) -> CalibrateAnswer {
 
 /// Holds margins against runs, one after the other.
 fn watched(known: &Calibration, file: &str, runs: &Runs) -> CalibrateAnswer {
-    let all = known.from.iter().enumerate().flat_map(|(first, it)| {
-        let rank = it.rank.filter(|_| it.bounds.iter().any(Option::is_some));
-        rank.into_iter().flat_map(move |rank| {
-            let promise = Promise::new(u64::from(rank), u64::from(it.runs));
-            let bound = move |axis: &usize| it.bounds[*axis].is_some();
-            [0, 1].into_iter().filter(bound).map(move |axis| (first, axis, promise))
-        })
-    });
-    let all: Vec<_> = all.collect();
-    #[allow(clippy::cast_precision_loss)] // two for each activity
-    let error = ERROR / all.len().max(1) as f64;
-    let rows: Vec<_> = all
-        .into_iter()
-        .map(|(first, axis, mut promise)| {
-            let mut broken_after = None;
-            for run in &runs.spent {
-                let Some(missed) = known.missed(first, axis, run) else { continue };
-                promise.add(missed);
-                if broken_after.is_none() && promise.is_broken(error) {
-                    broken_after = Some(promise.seen());
-                }
-            }
-            WatchedRow {
-                activity: known.from[first].activity.clone(),
-                axis: AXES[axis],
-                runs: promise.seen(),
-                missed: promise.missed(),
-                promised: promise.coverage(CONFIDENCE).into(),
-                broken_after,
-            }
-        })
-        .collect();
+    let mut watch = Watch::new(known);
+    runs.spent.iter().for_each(|run| watch.add(run));
+    let held = watch.held();
     CalibrateAnswer {
         schema: "cotama/risk-calibrate/1",
         mission: runs.mission.clone(),
         runs: runs.spent.len() as u64,
-        coverage: f64::from(known.coverage) / 1e6,
+        coverage: held.coverage,
         promises: Vec::new(),
         against: Some(input::name(file).to_owned()),
-        holds: Some(rows.iter().all(|it| it.broken_after.is_none())),
-        watched: rows,
+        holds: Some(held.holds),
+        watched: held.watched,
     }
 }
 

@@ -1,8 +1,11 @@
 //! The result of a run, from its trace.
 
 use crate::answers::axes_run::FurtherMargin;
+use crate::answers::risk::HeldAnswer;
 use crate::answers::{EventRow, Outcome, PlanMade, PlanRow, RunBody};
+use crate::margins::watch::Watch;
 use cotama_core::units::mul_div_half_up;
+use cotama_models::margins::Calibration;
 use cotama_sim::run::Run;
 use cotama_sim::trace::{self, Event, Occurrence, Plan, Record, Trace};
 
@@ -40,10 +43,20 @@ pub(crate) fn body(trace: &Trace, run: &Run, mission: &str) -> RunBody {
         x_mm: run.x_mm,
         events: events.collect(),
         supervised: super::supervised::supervised(trace),
+        held: held(trace, run),
         report: None,
         trace: None,
         recordings: Vec::new(),
     }
+}
+
+/// Whether the run kept within the margins that it held back; they stand in its trace.
+fn held(trace: &Trace, run: &Run) -> Option<HeldAnswer> {
+    let text = trace.header.options.margins.as_ref()?;
+    let known = Calibration::parse("margins", text).ok()?;
+    let mut watch = Watch::new(&known);
+    watch.add(&run.spent);
+    Some(watch.held())
 }
 
 /// A time in ms, rounded half up.

@@ -17,13 +17,15 @@ pub struct Run {
     pub monitor_period: Millis,
     /// The seed of its random numbers, where none is given.
     pub seed: u64,
+    /// The file of margins that are held back for what remains, where one is named.
+    pub margins: Option<String>,
     /// The faults.
     pub faults: Faults,
 }
 
 impl Default for Run {
     fn default() -> Self {
-        Self { monitor_period: Millis(1000), seed: 0, faults: Faults::default() }
+        Self { monitor_period: Millis(1000), seed: 0, margins: None, faults: Faults::default() }
     }
 }
 

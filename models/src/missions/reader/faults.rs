@@ -97,10 +97,12 @@ pub(super) fn run(run: Option<Fields<'_>>, names: &Names<'_>) -> Option<Run> {
     let Some(mut run) = run else { return Some(Run::default()) };
     let period = run.optional_integer("monitor_period_ms", PERIODS);
     let seed = run.optional_integer::<u64>("seed", AT_LEAST_ZERO);
+    let margins = run.optional_text("margins");
     let faults = read(&mut run, names);
     run.finish();
     let monitor_period = period.ok()?.map_or(Run::default().monitor_period, Millis);
-    Some(Run { monitor_period, seed: seed.ok()?.unwrap_or(0), faults: faults? })
+    let margins = margins.ok()?.map(|it| it.value);
+    Some(Run { monitor_period, seed: seed.ok()?.unwrap_or(0), margins, faults: faults? })
 }
 
 fn read(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Faults> {
