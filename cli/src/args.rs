@@ -113,12 +113,16 @@ Examples:
   $ cotama plan patrol --lost laser:1 --json
   $ cotama plan patrol --energy-limit 4000000   # infeasible: says why, exit code 1")]
     Plan(PlanArgs),
-    /// Says why candidates of a mission with axes are not faster, and what would change it
+    /// Says why candidates of a mission with axes are not faster, or why robots of a team bid so
     ///
     /// A speed is the highest at which all core constraints hold. For each candidate of an activity
     /// it is said which constraint binds, by which inducers, what each allows alone, and which
     /// single number, changed as little as can be, allows more. Without an activity it is a table
     /// of all.
+    ///
+    /// Of a team each bid for a task is taken apart, as it is at the start of a run: ways, times of
+    /// drives and hands, what failures add; or which skills are missing. Then the best coalition,
+    /// its pledge, the second best, and the cost without each of its robots.
     #[command(after_long_help = explain::EXPLAIN_EXAMPLES)]
     Explain(ExplainArgs),
     /// Plans a mission, runs it with its faults, plans again where needed, and writes a report

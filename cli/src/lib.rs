@@ -10,6 +10,7 @@ mod answers;
 mod args;
 mod assign;
 mod axes;
+mod bids;
 mod budget;
 mod campaign;
 mod catalogue;

@@ -60,6 +60,7 @@ mod tests {
     use crate::answers::error::ErrorAnswer;
     use crate::answers::estimate::EstimateAnswer;
     use crate::answers::explain::ExplainAnswer;
+    use crate::answers::explain::bids::BidsAnswer;
     use crate::answers::floor::FloorAnswer;
     use crate::answers::fmeca::{FmecaAnswer, MeasureAnswer};
     use crate::answers::model::{ModelsAnswer, SimulateAnswer};
@@ -102,6 +103,7 @@ mod tests {
             ("plan", of::<PlanAnswer>()),
             ("plan-axes", of::<AxesAnswer>()),
             ("explain", of::<ExplainAnswer>()),
+            ("explain-team", of::<BidsAnswer>()),
             ("run", of::<RunAnswer>()),
             ("run-axes", of::<AxesRunAnswer>()),
             ("run-team", of::<TeamAnswer>()),

@@ -7,8 +7,9 @@ use std::path::PathBuf;
 
 const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
 
-const COMMANDS: [&str; 30] = [
+const COMMANDS: [&str; 31] = [
     "list",
+    "explain-team",
     "plan",
     "plan-axes",
     "run",

@@ -2,7 +2,7 @@
 
 use crate::common::{Folder, golden};
 use crate::schemas::validate;
-use serde_json::json;
+use serde_json::{Value, json};
 
 #[test]
 fn the_service_is_that_of_the_thesis() {
@@ -335,5 +335,65 @@ fn a_broken_team_is_told_once_with_its_place() {
                 assert!(ended.stderr.contains(&format!("t.json:{at}")), "{}", ended.stderr);
             }
         }
+    }
+}
+
+/// Each bid is taken apart into parts that add up, and is that of the run.
+#[test]
+fn a_bid_is_explained_by_the_parts_of_which_it_is_made() {
+    let folder = Folder::new("team_explained");
+    let mut screens = folder.cotama(&["explain", "service"]).stdout;
+    screens += &folder.cotama(&["explain", "service", "serve"]).stdout;
+    folder.write("two.toml", TWO);
+    screens += &folder.cotama(&["explain", "two.toml", "parcel"]).stdout;
+    golden("explain_team.txt", &screens);
+
+    let service = folder.cotama(&["explain", "service", "--json"]).json(0);
+    validate("explain-team", &service);
+    let two = folder.cotama(&["explain", "two.toml", "parcel", "--json"]).json(0);
+    validate("explain-team", &two);
+    let number = |it: &Value| it.as_u64().unwrap();
+    let mut bids = 0;
+    for answer in [&service, &two] {
+        let tasks = answer["because"].as_array().unwrap().iter();
+        let plans = tasks.flat_map(|it| it["plans"].as_array().unwrap());
+        let roles = plans.flat_map(|it| it["roles"].as_array().unwrap());
+        for bid in roles.flat_map(|it| it["bids"].as_array().unwrap()) {
+            let Some(cost) = bid["bid_ms"].as_u64() else {
+                assert!(!bid["lacks"].as_array().unwrap().is_empty(), "{bid}");
+                continue;
+            };
+            let counts = &bid["counts"];
+            let drives: u64 = counts["drives_ms"].as_array().unwrap().iter().map(number).sum();
+            let rest = ["rounds_ms", "take_ms", "give_ms"].map(|it| number(&counts[it]));
+            let sum = drives + rest.iter().sum::<u64>() + number(&bid["failures_ms"]);
+            assert_eq!(sum, cost, "{bid}");
+            bids += 1;
+        }
+    }
+    assert_eq!(bids, 14);
+    // The award of a run has the bid of its winner.
+    let run = folder.cotama(&["run", "two.toml", "--no-report", "--json"]).json(0);
+    let best = &two["because"][0]["best"];
+    assert_eq!(run["run"]["awards"][0]["robots"], best["robots"]);
+    let parts = number(&two["because"][0]["cost_denominator"]);
+    assert_eq!(number(&run["run"]["awards"][0]["costs_ms"][0]) * parts, number(&best["cost"]));
+    // So has the assignment, in as many parts.
+    let assigned = folder.cotama(&["assign", "two.toml", "--json"]).json(0);
+    assert_eq!(assigned["assignment"][0]["cost"], best["cost"]);
+}
+
+#[test]
+fn a_task_that_a_team_does_not_have_is_not_explained() {
+    let folder = Folder::new("team_not_explained");
+    for (line, said) in [
+        ("explain service serv", "did you mean `serve`?"),
+        ("explain service A1", "its tasks: order, serve"),
+        ("explain service serve --steps 9", "--steps is for missions"),
+        ("explain service serve --candidate x", "--candidate is for missions"),
+    ] {
+        let ended = folder.cotama(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""), "{line}");
+        assert!(ended.stderr.contains(said), "{line}: {}", ended.stderr);
     }
 }

@@ -1,5 +1,7 @@
 //! The answer of `cotama explain`.
 
+pub(crate) mod bids;
+
 use super::axes::{DroppedRow, InducerRow};
 #[cfg(test)]
 use schemars::JsonSchema;

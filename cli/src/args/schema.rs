@@ -17,6 +17,8 @@ pub(crate) enum SchemaName {
     /// The answer of `plan` for a mission with axes
     PlanAxes,
     Explain,
+    /// The answer of `explain` for a team
+    ExplainTeam,
     Run,
     /// The answer of `run` for a mission with axes
     RunAxes,

@@ -5,11 +5,13 @@ use crate::answers::explain::{
     BecauseRow, BindingRow, CandidateRow, ExplainAnswer, HeldRow, RaiseRow,
 };
 use crate::args::ExplainArgs;
+use crate::bids;
 use crate::exit::{Exit, Failure};
 use crate::mission;
 use crate::names::{near, quoted};
 use crate::output::Screen;
 use crate::render;
+use crate::team::Chosen;
 use cotama_axes::raise::{Raise, raises};
 use cotama_axes::why::why;
 use cotama_axes::{
@@ -19,6 +21,9 @@ use cotama_axes::{
 /// Says why candidates are not faster.
 pub(crate) fn explain(args: &ExplainArgs, screen: &Screen) -> Result<Exit, Failure> {
     let name = &args.mission;
+    if let Some(chosen) = Chosen::of(name)? {
+        return bids::explain(args, &chosen, screen);
+    }
     let Some(file) = super::file(name)? else {
         // A plain mission, or no mission at all.
         let plain = mission::load(name, None)?;

@@ -144,7 +144,7 @@ fn cell(cost: u64, parts: u32) -> Cell {
 }
 
 /// Parts as units, with a fraction in lowest terms.
-fn amount(cost: u64, parts: u32) -> String {
+pub(super) fn amount(cost: u64, parts: u32) -> String {
     let parts = u64::from(parts.max(1));
     let (whole, rest) = (cost / parts, cost % parts);
     let whole = grouped(&whole.to_string());

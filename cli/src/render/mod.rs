@@ -4,6 +4,7 @@ pub(crate) mod allocate;
 pub(crate) mod assign;
 pub(crate) mod axes;
 pub(crate) mod axes_run;
+pub(crate) mod bids;
 pub(crate) mod calibrate;
 pub(crate) mod campaign;
 pub(crate) mod causes;

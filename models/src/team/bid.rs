@@ -64,6 +64,29 @@ pub fn failure_aware_cost(steps: &[Step]) -> Option<Ratio> {
     Ratio::new(plain.checked_mul(parts)?.checked_add(risk)?, parts)
 }
 
+/// Returns the actions of a plan as a robot would carry them out: of alternatives each uses those
+/// that cost least, failures counted in (3.11, 3.12). None where it is not capable, or where the
+/// plan has more than [`MAX_STEPS`] actions. `cost` and `surcharge` are those of
+/// [`Bid::for_plan`].
+pub fn steps<'m>(
+    robot: &Robot<'_>,
+    plan: &ActionPlan<'_>,
+    cost: impl Fn(usize) -> u32,
+    surcharge: impl Fn(usize, Capability) -> u32,
+    memory: &'m mut [Step; MAX_STEPS],
+) -> Option<&'m [Step]> {
+    for (place, action) in plan.actions.iter().enumerate() {
+        let before = memory.iter().take(place).map(|it| it.cost);
+        let failure = failure_cost(before.chain([cost(place)]))?;
+        let more = |it| u64::from(surcharge(place, it));
+        let used = action.needs.used(robot, &more, failure)?;
+        let whole = u64::from(cost(place)).saturating_add(used.surcharge);
+        let step = Step { cost: u32::try_from(whole).ok()?, success: used.success };
+        *memory.get_mut(place)? = step;
+    }
+    memory.get(..plan.actions.len())
+}
+
 /// The bid of a robot for a role.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bid {
@@ -87,19 +110,9 @@ impl Bid {
         cost: impl Fn(usize) -> u32,
         surcharge: impl Fn(usize, Capability) -> u32,
     ) -> Option<Self> {
-        let mut steps = [Step { cost: 0, success: Probability::ONE }; MAX_STEPS];
-        let mut success = Probability::ONE;
-        for (place, action) in plan.actions.iter().enumerate() {
-            let before = steps.iter().take(place).map(|it| it.cost);
-            let failure = failure_cost(before.chain([cost(place)]))?;
-            let more = |it| u64::from(surcharge(place, it));
-            let used = action.needs.used(robot, &more, failure)?;
-            let whole = u64::from(cost(place)).saturating_add(used.surcharge);
-            let step = Step { cost: u32::try_from(whole).ok()?, success: used.success };
-            *steps.get_mut(place)? = step;
-            success = success.and(used.success);
-        }
-        let steps = steps.get(..plan.actions.len())?;
+        let mut memory = [Step { cost: 0, success: Probability::ONE }; MAX_STEPS];
+        let steps = steps(robot, plan, cost, surcharge, &mut memory)?;
+        let success = steps.iter().fold(Probability::ONE, |all, it| all.and(it.success));
         Some(Self { plan: 0, cost: failure_aware_cost(steps)?, success })
     }
 

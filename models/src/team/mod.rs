@@ -40,7 +40,7 @@ pub mod service;
 mod task;
 pub mod thesis;
 
-pub use bid::{Bid, MAX_STEPS, Pledge, Step, failure_aware_cost, failure_cost};
+pub use bid::{Bid, MAX_STEPS, Pledge, Step, failure_aware_cost, failure_cost, steps};
 pub use capability::{Capability, CapabilitySet, Robot, Skill};
 pub use constraint::{Alternatives, Constraint, Used};
 pub use error_class::{ErrorClass, MOST_REPEATS, classify};

@@ -2,7 +2,7 @@
 
 use super::worker::{drive_ms, pace, planning_ms};
 use super::{Give, Needs, Place, RoleSpec, Scenario, Spot, Stage, Take};
-use crate::team::bid::Bid;
+use crate::team::bid::{Bid, MAX_STEPS, Step, steps};
 use crate::team::capability::{Capability, CapabilitySet, Robot, Skill};
 use crate::team::reliability::{Probability, Reliability};
 use std::cmp::Reverse;
@@ -25,6 +25,41 @@ pub struct Outlook<'a> {
     pub ends: [Spot; 2],
     /// Whether it has the object on board, and need not take it.
     pub holds: bool,
+}
+
+impl Outlook<'_> {
+    /// Returns the skills that it can use.
+    pub(super) fn usable(&self) -> Vec<Skill> {
+        self.skills.iter().filter(|it| self.able.has(it.capability)).copied().collect()
+    }
+}
+
+/// The ways and times of a role, when nothing fails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Parts {
+    /// The ways to where it takes, and from there to where it gives, in mm.
+    pub ways_mm: [u64; 2],
+    /// The times of these drives, in ms, the planning before each included.
+    pub drives_ms: [u64; 2],
+    /// Time of the rounds of the decisional component, in ms.
+    pub rounds_ms: u64,
+    /// How long it takes to take the object, in ms; 0 where it has it on board.
+    pub take_ms: u64,
+    /// How long it takes to give it, in ms.
+    pub give_ms: u64,
+}
+
+impl Parts {
+    /// Returns the costs of drives and hands in their order, in ms.
+    pub fn costs(&self) -> [u64; 4] {
+        let [first, second] = self.drives_ms;
+        [first.saturating_add(self.rounds_ms), self.take_ms, second, self.give_ms]
+    }
+
+    /// Returns the whole time, in ms.
+    pub fn sum_ms(&self) -> u64 {
+        sum(&self.costs())
+    }
 }
 
 /// The bid of a robot for a role.
@@ -65,24 +100,42 @@ impl RoleSpec {
     /// Returns the bid of a robot of these skills, for the costs of its drives and hands in their
     /// order, in ms: those that are over cost nothing. `None` where it cannot.
     pub fn quote(&self, skills: &[Skill], costs: [u64; 4]) -> Option<Quote> {
-        let sum = |costs: &[u64]| costs.iter().fold(0_u64, |sum, it| sum.saturating_add(*it));
         let certain = skills.iter().all(|it| it.reliability == Reliability::CERTAIN);
         if certain || self.actions.is_empty() {
             let cost_ms = u32::try_from(sum(&costs)).ok()?;
             return Some(Quote { cost_ms, success: Probability::ONE });
         }
-        // Failures are counted in. The last action of a role costs all that is still to be done;
-        // one that follows the last step costs nothing more.
-        let last = self.actions.len() - 1;
-        let cost = |at: usize| {
-            let rest = costs.get(at..).unwrap_or_default();
-            let own = rest.first().copied().unwrap_or(0);
-            u32::try_from(if at == last { sum(rest) } else { own }).unwrap_or(u32::MAX)
-        };
+        let cost = self.cost_of_action(costs);
         let who = Robot { name: "", skills };
         let bid = self.with_role(|role| Bid::for_role(&who, role, |_, at| cost(at)))?;
         Some(Quote { cost_ms: u32::try_from(bid.price()).ok()?, success: bid.success })
     }
+
+    /// Returns the actions of the role as [`quote`](Self::quote) counts them; `None` where a robot
+    /// of these skills cannot.
+    pub(super) fn steps(&self, skills: &[Skill], costs: [u64; 4]) -> Option<Vec<Step>> {
+        let (cost, who) = (self.cost_of_action(costs), Robot { name: "", skills });
+        let mut memory = [Step { cost: 0, success: Probability::ONE }; MAX_STEPS];
+        self.with_role(|role| {
+            let plan = role.plans.first()?;
+            Some(steps(&who, plan, cost, |_, _| 0, &mut memory)?.to_vec())
+        })
+    }
+
+    /// Returns the cost of each action. The last one costs all that is still to be done; one that
+    /// follows the last step costs nothing more.
+    fn cost_of_action(&self, costs: [u64; 4]) -> impl Fn(usize) -> u32 {
+        let last = self.actions.len().saturating_sub(1);
+        move |at| {
+            let rest = costs.get(at..).unwrap_or_default();
+            let own = rest.first().copied().unwrap_or(0);
+            u32::try_from(if at == last { sum(rest) } else { own }).unwrap_or(u32::MAX)
+        }
+    }
+}
+
+fn sum(costs: &[u64]) -> u64 {
+    costs.iter().fold(0, |all, it| all.saturating_add(*it))
 }
 
 /// Returns the least number that each of these numbers of roles divides: in such parts the mean of
@@ -120,22 +173,23 @@ impl Scenario {
 
     /// Returns the bid of a robot for a role; `None` where it cannot.
     pub fn quote(&self, role: &RoleSpec, outlook: &Outlook<'_>) -> Option<Quote> {
-        let Outlook { skills, able, from, pace, ends: [takes, gives], holds } = *outlook;
-        if !role.possible(able) {
+        if !role.possible(outlook.able) {
             return None;
         }
-        let drive = |from: Spot, to: Spot| {
-            let way = self.floor.distance(from, to)?;
-            Some(planning_ms().saturating_add(drive_ms(way, pace)))
-        };
-        let costs = [
-            drive(from, takes)?.saturating_add(ROUNDS),
-            if holds { 0 } else { role.take_ms },
-            drive(takes, gives)?,
-            role.give_ms,
-        ];
-        let usable: Vec<_> = skills.iter().filter(|it| able.has(it.capability)).copied().collect();
-        role.quote(&usable, costs)
+        role.quote(&outlook.usable(), self.parts(role, outlook)?.costs())
+    }
+
+    /// Returns the ways and times of a role for a robot; `None` where no way leads there.
+    pub(super) fn parts(&self, role: &RoleSpec, outlook: &Outlook<'_>) -> Option<Parts> {
+        let Outlook { from, pace, ends: [takes, gives], holds, .. } = *outlook;
+        let ways_mm = [self.floor.distance(from, takes)?, self.floor.distance(takes, gives)?];
+        Some(Parts {
+            ways_mm,
+            drives_ms: ways_mm.map(|it| planning_ms().saturating_add(drive_ms(it, pace))),
+            rounds_ms: ROUNDS,
+            take_ms: if holds { 0 } else { role.take_ms },
+            give_ms: role.give_ms,
+        })
     }
 
     /// Returns the cost of a role of a task for a robot at the start of a run, in ms: nothing has
@@ -149,17 +203,28 @@ impl Scenario {
     /// assert!(bids[0].is_some() && bids[1..] == [None, None, None]); // Eddie alone speaks
     /// ```
     pub fn bid(&self, robot: usize, task: usize, role: &RoleSpec) -> Option<u32> {
+        self.at_start(robot, task, role, |outlook| Some(self.quote(role, outlook)?.cost_ms))?
+    }
+
+    /// Runs something on the part of a robot in a role at the start of a run; `None` where there is
+    /// no such robot or task.
+    pub(super) fn at_start<R>(
+        &self,
+        robot: usize,
+        task: usize,
+        role: &RoleSpec,
+        act: impl FnOnce(&Outlook<'_>) -> R,
+    ) -> Option<R> {
         let (who, object) = (self.robots.get(robot)?, self.tasks.get(task)?.start);
         let at = |place: Place| Spot::at(place);
         let skills = who.trusted(self.trust);
-        let outlook = Outlook {
+        Some(act(&Outlook {
             skills: &skills,
             able: who.capabilities(),
             from: at(who.start),
             pace: pace(0)?,
             ends: self.ends(task, role, at(object)),
             holds: false,
-        };
-        Some(self.quote(role, &outlook)?.cost_ms)
+        }))
     }
 }

@@ -45,6 +45,7 @@ mod coalitions;
 mod floor;
 mod ground;
 mod reader;
+mod reasons;
 #[cfg(test)]
 mod tests;
 mod track;
@@ -52,11 +53,12 @@ mod trust;
 mod worker;
 mod writer;
 
-pub use bid::{Outlook, Quote, common_denominator};
+pub use bid::{Outlook, Parts, Quote, common_denominator};
 pub use coalitions::{Figures, Gate, MOST_COALITIONS, Passes, Pruning};
 pub use floor::{Floor, On, Place, Spot};
 pub use ground::{Asked, MOST_PAIRED, MOST_PLANNED, Ways};
 pub use reader::{FAULTS, FaultsOfTeam};
+pub use reasons::{Contest, Counted, Lack, Offer, Reasons};
 pub use trust::{FailureRates, Trust};
 pub use worker::{Row, drive_ms, pace, planning_ms, robot, steps};
 
