@@ -132,6 +132,7 @@ fn bid(scenario: &Scenario, (robot, task): (usize, usize), spec: &RoleSpec) -> B
         Err(Lack::Skills(missing)) => {
             row.lacks = missing.iter().map(|it| skills(scenario, *it).join(" | ")).collect();
         }
+        Err(Lack::Away) => row.why_not = Some("it joins later"),
         Err(Lack::Way) => row.why_not = Some("no way leads there"),
         Err(Lack::Cost) => row.why_not = Some("the cost is more than a bid can say"),
         Ok(it) => {

@@ -31,7 +31,14 @@ fn main() {
     let simulated = run(&scenario).end_ms as f64 / 1_000.0;
     let silent = seconds(rounds, || drop(black_box(run(&scenario))));
     let recorded = seconds(rounds, || drop(black_box(run_recorded(&scenario))));
-    for (name, took) in [("without trace", silent), ("trace in memory", recorded)] {
+    let queue = fleet(&FleetOptions { takeover: true, kills: 3, ..FleetOptions::default() });
+    let taken_over = run(&queue).end_ms as f64 / 1_000.0;
+    let copied = seconds(rounds, || drop(black_box(run(&queue))));
+    for (name, simulated, took) in [
+        ("without trace", simulated, silent),
+        ("trace in memory", simulated, recorded),
+        ("with takeovers", taken_over, copied),
+    ] {
         println!("{name:15}  {simulated:>8.1} s in {took:>6.3} s, {:>7.0} x", simulated / took);
     }
 }

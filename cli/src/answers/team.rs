@@ -66,6 +66,8 @@ pub(crate) struct TeamRun {
     /// Robots that cannot work any more.
     pub(crate) robots_out: u64,
     /// Messages sent, by their kind.
+    /// How often a robot took over from an auctioneer that was silent.
+    pub(crate) takeovers: u64,
     pub(crate) messages: BTreeMap<&'static str, u64>,
     pub(crate) messages_lost: u64,
     /// The performance of the team (2.7): of the utility of all tasks what is left when the time of

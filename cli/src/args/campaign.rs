@@ -18,10 +18,11 @@ use std::path::PathBuf;
 
 pub(super) const CAMPAIGN_EXAMPLES: &str = "\
 Requirements (--require, repeated) completed; not-failed; METRIC<=N with time (ms) or energy (mJ), \
-or under supervisors in-time, brakes, stands-when-safe, seen-in-time, plans-with-what-works, \
-requests<=N, exposed<=N (ms), `never NET.TRANSITION`, and properties as of `cotama check` that one \
-run can break: `AG (gs.Safe -> ls.Idle)`, `AG (p -> AF<=200ms q)`. Usual: in-time, brakes and \
-stands-when-safe, or not-failed without supervisors.
+of teams also robot-time (ms), put-up-again, failed-uses; under supervisors in-time, brakes, \
+stands-when-safe, seen-in-time, plans-with-what-works, requests<=N, exposed<=N (ms), `never \
+NET.TRANSITION`, and properties as of `cotama check` that one run can break: `AG (gs.Safe -> \
+ls.Idle)`, `AG (p -> AF<=200ms q)`. Usual: in-time, brakes and stands-when-safe, or not-failed \
+without supervisors.
 
 Examples:
   $ cotama campaign patrol --runs 200

@@ -20,6 +20,10 @@ pub(crate) struct TeamArgs {
     /// 5, but at most an eighth of the robots]
     #[arg(long, value_name = "N", value_parser = whole(0, MAX_ROBOTS as u64))]
     pub(crate) failures: Option<u64>,
+    /// The first robot of the fleet gives tasks out, not a desk, and so many times whoever does then
+    /// fails, and the next robot takes over; 0 for never
+    #[arg(long, value_name = "N", value_parser = whole(0, MAX_ROBOTS as u64))]
+    pub(crate) kills: Option<u64>,
     /// How often the gripper of the first robot of the fleet fails, in percent, with at most one
     /// decimal: grippers then take and give for a minute, and ten uses of each went well before
     #[arg(long, value_name = "PERCENT", value_parser = share)]
@@ -64,6 +68,7 @@ impl TeamArgs {
             ("--robots", self.robots.is_some()),
             ("--tasks", self.tasks.is_some()),
             ("--failures", self.failures.is_some()),
+            ("--kills", self.kills.is_some()),
             ("--gripper", self.gripper.is_some()),
         ];
         given.into_iter().find(|it| it.1).map(|it| it.0)

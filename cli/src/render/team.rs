@@ -91,8 +91,13 @@ fn headline(answer: &TeamAnswer, run: &TeamRun) -> String {
             "an action was repeated, or its task given back",
         )
     });
+    let taken_over = (run.takeovers > 0).then(|| {
+        let words = "the next robot gives tasks out, as who did was silent";
+        ("taken over", run.takeovers.to_string(), words)
+    });
+    let more = taken_over.into_iter().chain(failed).chain(performance);
     let mut table = Table::new(vec![]).left(2);
-    for (name, value, words) in rows.into_iter().chain(failed).chain(performance) {
+    for (name, value, words) in rows.into_iter().chain(more) {
         table.row(vec![Cell::plain(name), Cell::plain(value), Cell::faint(words)]);
     }
     text + &table.render(100) + &skills(run)
@@ -154,6 +159,10 @@ fn happened(answer: &TeamAnswer, trace: &Trace, width: usize) -> String {
                 let what = "is silent; its award has run out".to_owned();
                 (*t_ms, trace.robot(*robot).to_owned(), trace.task(*task), what, NOTICE)
             }
+            Record::TakesOver { t_ms, robot, copied } => {
+                let what = takes_over(*copied);
+                (*t_ms, trace.robot(*robot).to_owned(), "", what.to_owned(), NOTICE)
+            }
             Record::Reported { t_ms, task, why } => {
                 (*t_ms, String::new(), trace.task(*task), format!("reported: {why}"), BAD)
             }
@@ -179,6 +188,14 @@ fn happened(answer: &TeamAnswer, trace: &Trace, width: usize) -> String {
         let _ = writeln!(text, "  {FAINT}and {} more: see the report{FAINT:#}", rows.len() - SHOWN);
     }
     text
+}
+
+const fn takes_over(copied: bool) -> &'static str {
+    if copied {
+        "gives tasks out from now on"
+    } else {
+        "gives tasks out from now on, without a copy"
+    }
 }
 
 /// Many seeds.

@@ -75,6 +75,7 @@ impl Chosen {
         }
         let (tasks, loss) = (number(args.team.tasks, usual.tasks), args.team.loss);
         let (hidden_handle, allocation) = (args.team.hidden_handle, args.team.allocation);
+        let (takeover, kills) = (args.team.kills.is_some(), number(args.team.kills, 0));
         let (gripper, trust) = (args.team.gripper.unwrap_or(0), args.team.trust);
         let file = match self {
             Self::File(scenario) => Some((**scenario).clone()),
@@ -89,8 +90,9 @@ impl Chosen {
                 None if is_fleet => {
                     let failures = if script { failures } else { 0 };
                     let gripper_fails_permille = gripper;
+                    let kills = if script { kills } else { 0 };
                     let size = FleetOptions { robots, tasks, failures, seed, ..usual };
-                    fleet(&FleetOptions { gripper_fails_permille, ..size })
+                    fleet(&FleetOptions { gripper_fails_permille, takeover, kills, ..size })
                 }
                 None => {
                     let disturbances = script && !hidden_handle;
@@ -352,7 +354,12 @@ fn of(trace: &Trace) -> TeamRun {
         auctions: u64::from(run.rounds),
         reopened: u64::from(run.reopened),
         robots_out: run.out as u64,
-        messages: Letters::ALL.iter().map(|it| (it.name(), run.sent(*it))).collect(),
+        takeovers: u64::from(run.takeovers),
+        messages: Letters::ALL
+            .iter()
+            .chain(&[Letters::Copy][..usize::from(run.copies > 0)])
+            .map(|it| (it.name(), run.sent(*it)))
+            .collect(),
         messages_lost: run.lost,
         failed_uses: u64::from(run.failed_uses),
         skills: run.skills.iter().map(|it| skill(trace, it)).collect(),

@@ -1,4 +1,4 @@
-//! Files of teams at work that are none: fifty of them, told with their places and near names; the
+//! Files of teams at work that are none, told with their places and near names; the
 //! messages are in `tests/golden/teams_at_work.txt`. Limits are told as such.
 
 use cotama_models::team::scenario::Scenario;
@@ -7,7 +7,7 @@ use std::fmt::Write;
 const SERVICE: &str = include_str!("../../teams/service.toml");
 
 /// One text of the service, and another in its place.
-const BROKEN: [(&str, &str); 50] = [
+const BROKEN: [(&str, &str); 53] = [
     ("cotama-team/1", "cotama-team/2"),
     ("format = \"cotama-team/1\"\n", ""),
     ("name = \"service\"\n", ""),
@@ -21,11 +21,14 @@ const BROKEN: [(&str, &str); 50] = [
     ("method = \"optimal\"", "method = \"optimum\""),
     ("formation = \"distributed\"", "formation = \"distribute\""),
     ("auctioneer = \"Eddie\"", "auctioneer = \"Eddi\""),
+    ("slack_permille = 500", "takeover = \"yes\""),
     ("slack_permille = 500", "slack_permille = \"half\""),
     ("second_best = true", "second_best = 1"),
     ("second_best = true", "trust = \"learnt\""),
     ("second_best = true", "trst = \"learned\""),
     ("on = \"service\"", "on = 7"),
+    ("name = \"Eddie\"\n", "name = \"Eddie\"\njoins_ms = 5000\nleaves_ms = 5000\n"),
+    ("name = \"Eddie\"\n", "name = \"Eddie\"\njoin_ms = 5000\n"),
     ("places = [\"desk\",", "places = [\"desk\", \"desk\","),
     ("length_mm = 6000", "length_mm = 0"),
     ("length_mm = 6000", "length_mm = \"6 m\""),
@@ -61,7 +64,7 @@ const BROKEN: [(&str, &str); 50] = [
 ];
 
 #[test]
-fn fifty_broken_teams_are_refused_at_their_places() {
+fn broken_teams_are_refused_at_their_places() {
     let mut said = String::new();
     for (old, new) in BROKEN {
         assert!(SERVICE.contains(old), "{old}");

@@ -37,6 +37,12 @@ pub struct Observed {
     pub replans: u64,
     /// The longest time in ms that the robot moved without a module that it required.
     pub exposed_ms: u64,
+    /// For how long robots of a team worked, all together, in ms.
+    #[serde(skip)]
+    pub robot_time_ms: u64,
+    /// How often uses of skills failed in a team.
+    #[serde(skip)]
+    pub failed_uses: u64,
     /// The longest way in mm that it went on after the permit to move was gone.
     #[serde(skip)]
     pub braked_mm: u64,
@@ -107,6 +113,8 @@ impl Observed {
             requests: 0,
             replans: 0,
             exposed_ms: 0,
+            robot_time_ms: 0,
+            failed_uses: 0,
             braked_mm: 0,
             moved_when_safe: false,
             unseen_ms: 0,
@@ -142,6 +150,8 @@ impl Observed {
             time_ms: run.end_ms,
             energy_mj: run.energy_mj,
             replans: u64::from(run.reopened),
+            robot_time_ms: run.busy_ms,
+            failed_uses: u64::from(run.failed_uses),
             features,
             ..Self::nothing()
         }
@@ -174,6 +184,8 @@ impl Observed {
             x_mm: run.x.0,
             requests: run.operator_requests,
             replans: run.plans.len().saturating_sub(1) as u64,
+            robot_time_ms: 0,
+            failed_uses: 0,
             exposed_ms: run.exposed.0,
             braked_mm: run.braked.0,
             moved_when_safe: run.moved_when_safe,

@@ -70,7 +70,7 @@ impl Fault {
             },
             Self::Power(it) => format!("power in zone {}", it.zone),
             Self::Team(it) => match it.what {
-                FaultKind::Robot(_, mode) => mode.name().to_owned(),
+                FaultKind::Robot(_, mode) | FaultKind::Auctioneer(mode) => mode.name().to_owned(),
                 FaultKind::Shifted(_) => "an object shifted".to_owned(),
                 FaultKind::Turned(..) => "an object turned".to_owned(),
             },

@@ -59,18 +59,41 @@ pub enum Metric {
     Requests,
     /// The longest time in ms that the robot moved without a module that it required.
     Exposed,
+    /// For how long robots of a team worked, all together, in ms.
+    RobotTime,
+    /// How often a task of a team was put up again.
+    PutUpAgain,
+    /// How often the use of a skill failed in a team.
+    FailedUses,
 }
 
 impl Metric {
-    const ALL: [Self; 4] = [Self::Time, Self::Energy, Self::Requests, Self::Exposed];
+    const ALL: [Self; 7] = [
+        Self::Time,
+        Self::Energy,
+        Self::Requests,
+        Self::Exposed,
+        Self::RobotTime,
+        Self::PutUpAgain,
+        Self::FailedUses,
+    ];
 
-    /// Returns the name: `time`, `energy`, `requests`, `exposed`.
+    /// Whether it is of teams only.
+    const fn is_of_teams(self) -> bool {
+        matches!(self, Self::RobotTime | Self::PutUpAgain | Self::FailedUses)
+    }
+
+    /// Returns the name: `time`, `energy`, `requests`, `exposed`, `robot-time`, `put-up-again`,
+    /// `failed-uses`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Time => "time",
             Self::Energy => "energy",
             Self::Requests => "requests",
             Self::Exposed => "exposed",
+            Self::RobotTime => "robot-time",
+            Self::PutUpAgain => "put-up-again",
+            Self::FailedUses => "failed-uses",
         }
     }
 
@@ -81,6 +104,9 @@ impl Metric {
             Self::Energy => run.energy_mj,
             Self::Requests => run.requests,
             Self::Exposed => run.exposed_ms,
+            Self::RobotTime => run.robot_time_ms,
+            Self::PutUpAgain => run.replans,
+            Self::FailedUses => run.failed_uses,
         }
     }
 }
@@ -142,6 +168,11 @@ impl Requirement {
         )
     }
 
+    /// Whether it speaks of teams only.
+    pub const fn needs_team(&self) -> bool {
+        matches!(self, Self::AtMost(metric, _) if metric.is_of_teams())
+    }
+
     /// Returns the requirement in words.
     pub fn words(&self) -> String {
         match self {
@@ -162,6 +193,9 @@ impl Requirement {
                     Metric::Energy => ("the energy used", " mJ"),
                     Metric::Requests => ("the requests to the operator", ""),
                     Metric::Exposed => ("the longest motion without a required module", " ms"),
+                    Metric::RobotTime => ("the time that robots work, all together,", " ms"),
+                    Metric::PutUpAgain => ("how often tasks are put up again", ""),
+                    Metric::FailedUses => ("how often uses of skills fail", ""),
                 };
                 let verb = if *metric == Metric::Requests { "are" } else { "is" };
                 format!("{what} {verb} at most {limit}{unit}")
@@ -241,7 +275,8 @@ impl fmt::Display for NoRequirement {
         write!(
             f,
             "`{}` is no requirement; there are {}, METRIC<=NUMBER with time (ms), energy (mJ), \
-             requests or exposed (ms), `never NET.TRANSITION`, and `AG` of what is marked",
+             requests, exposed (ms), and of teams robot-time (ms), put-up-again or failed-uses, \
+             `never NET.TRANSITION`, and `AG` of what is marked",
             self.0.escape_debug(),
             names.join(", ")
         )

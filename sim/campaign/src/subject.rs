@@ -219,6 +219,10 @@ impl<'m> Subject<'m> {
     /// assert_eq!((witness.at_ms, witness.seen), (166_200, vec!["gs.g3".to_owned()]));
     /// ```
     pub fn watching(self, requirements: &[Requirement]) -> Result<Self, Unready> {
+        let of_teams = requirements.iter().find(|it| it.needs_team());
+        if let Some(it) = of_teams.filter(|_| !self.is_team()) {
+            return Err(Unready::NoTeam(it.to_string()));
+        }
         let Robot::Driven(mission, driven, _) = self.robot else {
             return match requirements.iter().find(|it| it.needs_supervisors()) {
                 Some(it) => Err(Unready::Plain(it.to_string())),

@@ -93,7 +93,7 @@ fn head(page: &mut String, trace: &Trace) {
         run.out,
         trace.header.robots.len()
     );
-    let sent: u64 = run.messages.iter().sum();
+    let sent = run.messages.iter().sum::<u64>() + run.copies;
     let mean = run.waited_ms / (done as u64).max(1);
     let facts = [
         ("Time", clock(run.end_ms)),
@@ -273,6 +273,14 @@ fn wrong(page: &mut String, trace: &Trace) {
             Record::Reopened { t_ms, task } => {
                 (*t_ms, "", trace.task(*task).to_owned(), "is put up again".to_owned())
             }
+            Record::TakesOver { t_ms, robot, copied } => {
+                let what = if *copied {
+                    "gives tasks out from now on, with what was copied to it"
+                } else {
+                    "gives tasks out from now on, without a copy"
+                };
+                (*t_ms, trace.robot(*robot), String::new(), what.to_owned())
+            }
             Record::Reported { t_ms, task, why } => {
                 (*t_ms, "", trace.task(*task).to_owned(), format!("is reported: {why}"))
             }
@@ -400,7 +408,8 @@ fn messages(page: &mut String, trace: &Trace) {
         "<section><h2>Messages</h2>\n<div class=\"scroll\"><table><thead><tr><th>Kind</th>\
          <th class=\"n\">Sent</th></tr></thead>\n<tbody>\n",
     );
-    for kind in Kind::ALL {
+    let copies = &[Kind::Copy][..usize::from(trace.run().copies > 0)];
+    for &kind in Kind::ALL.iter().chain(copies) {
         let _ = writeln!(
             page,
             "<tr><td>{}</td><td class=\"n\">{}</td></tr>",

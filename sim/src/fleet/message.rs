@@ -2,6 +2,7 @@
 //! Algorithms 3.1 and 3.2; `Release` and the terms of an award are ours).
 
 use crate::fleet::bid::{Offer, Share};
+use crate::fleet::world::Ledger;
 use cotama_core::team::RobotSet;
 use cotama_models::team::ErrorClass;
 use std::rc::Rc;
@@ -51,8 +52,9 @@ pub(super) enum Ending {
 /// A message.
 #[derive(Clone, Debug)]
 pub(super) enum Message {
-    /// A robot is there. `fit` says whether it can work.
-    Alive { busy: bool, fit: bool },
+    /// A robot is there. `fit` says whether it can work; it `asks` who gives tasks out where it
+    /// has not heard of that for long.
+    Alive { busy: bool, fit: bool, asks: bool },
     /// From the auctioneer: it has heard of the award, which holds until then. `complete` says
     /// that all members have acknowledged it.
     Prolong { award: AwardId, until_ms: u64, complete: bool },
@@ -74,6 +76,12 @@ pub(super) enum Message {
     Status { award: AwardId, status: Status },
     /// The end of an award.
     Release { award: AwardId, ending: Ending },
+    /// From an auctioneer that may be replaced: it gives tasks out.
+    Leads,
+    /// The knowledge of the auctioneer at a time, for the robot that is so many places behind it.
+    Copy { version: u64, sent_ms: u64, place: u64, ledger: Rc<Ledger> },
+    /// The copy has come; until some time after it was sent the robot does not take over.
+    Copied { term: u32, version: u64, sent_ms: u64 },
 }
 
 /// The award of a task to a coalition.
@@ -86,7 +94,6 @@ pub(super) struct Award {
     /// Largest cost of each role, in ms: beyond it the robot gives the task back.
     pub(super) pledges_ms: Vec<u64>,
     pub(super) members: RobotSet,
-    pub(super) auctioneer: usize,
 }
 
 /// A message under way.
@@ -94,6 +101,8 @@ pub(super) struct Award {
 pub(super) struct Letter {
     pub(super) from: Party,
     pub(super) to: Party,
+    /// Of an auctioneer: how often somebody took over before it; of a robot: 0.
+    pub(super) term: u32,
     pub(super) message: Message,
 }
 
@@ -120,10 +129,12 @@ pub enum Kind {
     Status,
     /// An award is withdrawn, or its end was heard.
     Release,
+    /// What an auctioneer knows is copied, and who gives tasks out is said.
+    Copy,
 }
 
 impl Kind {
-    /// All kinds.
+    /// All kinds but [`Copy`](Self::Copy), which is where one robot takes over from another.
     pub const ALL: [Self; 10] = [
         Self::Alive,
         Self::Announce,
@@ -150,6 +161,7 @@ impl Kind {
             Self::Nack => "Nack",
             Self::Status => "Status",
             Self::Release => "Release",
+            Self::Copy => "Copy",
         }
     }
 }
@@ -167,6 +179,7 @@ impl Message {
             Self::Nack { .. } => Kind::Nack,
             Self::Status { .. } => Kind::Status,
             Self::Release { .. } => Kind::Release,
+            Self::Leads | Self::Copy { .. } | Self::Copied { .. } => Kind::Copy,
         }
     }
 }

@@ -6,6 +6,7 @@
 //! Scenario  task, scenarios   robots, tasks, faults, network: all that a run needs
 //!  -> World world             an event at a time, to the millisecond
 //!      auctioneer, awards     announces, awards, watches, puts up again
+//!      succession             who goes on when it fails
 //!      robot, bidding         each robot's broker and bidder
 //!      working, driver        each robot under COTAMA's decisional component
 //!      network                delay, loss, copies, counts
@@ -29,9 +30,9 @@
 //! award holds until a date that the auctioneer prolongs while it hears of the robot: beyond it the
 //! robot stops by itself, and only then is the task put up again, so that no two robots work for
 //! it, whoever cannot hear whom (clocks are taken to agree). Withdrawn awards are confirmed, and
-//! the end of a role is said until it is heard. The auctioneer is at a desk, or at the robot that
-//! received the task (strategies i and ii); that another takes over when it fails is left to the
-//! nets.
+//! the end of a role is said until it is heard. The auctioneer is at a desk, or at a robot
+//! (strategies i and ii), or the next robot takes over when it fails (iii): what it knows is copied
+//! to two others before it acts.
 //!
 //! *Who does what* is computed by [`cotama_core::team`]: all open tasks at once at the least cost,
 //! or by the greedy rounds of the thesis, or task by task, for comparison. Brokers share coalitions

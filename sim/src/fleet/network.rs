@@ -12,6 +12,7 @@ pub(super) struct Network {
     delay: Stream,
     copies: Stream,
     sent: [u64; Kind::ALL.len()],
+    copied: u64,
     lost: u64,
 }
 
@@ -23,6 +24,7 @@ impl Network {
             delay: streams.stream("network delay"),
             copies: streams.stream("network copies"),
             sent: [0; Kind::ALL.len()],
+            copied: 0,
             lost: 0,
         }
     }
@@ -30,7 +32,8 @@ impl Network {
     /// When a letter arrives, each time that it does. Who writes to itself needs no network.
     pub(super) fn carry(&mut self, now_ms: u64, letter: &Letter) -> impl Iterator<Item = u64> {
         let Quality { delay_ms, jitter_ms, loss_permille, copies_permille } = self.quality;
-        self.sent[letter.message.kind() as usize] += 1;
+        let kind = letter.message.kind() as usize;
+        *self.sent.get_mut(kind).unwrap_or(&mut self.copied) += 1;
         let own = letter.from.address() == letter.to.address();
         let lost = !own && self.loss.below(1_000) < u64::from(loss_permille);
         let copied = !own && self.copies.below(1_000) < u64::from(copies_permille);
@@ -45,6 +48,11 @@ impl Network {
     /// How many messages of each kind were sent, in the order of [`Kind::ALL`].
     pub(super) const fn sent(&self) -> [u64; Kind::ALL.len()] {
         self.sent
+    }
+
+    /// How many copies, their answers, and words about who gives tasks out were sent.
+    pub(super) const fn copied(&self) -> u64 {
+        self.copied
     }
 
     pub(super) const fn lost(&self) -> u64 {

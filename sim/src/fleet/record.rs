@@ -182,6 +182,15 @@ pub enum Record {
         /// The reason, in words.
         why: String,
     },
+    /// A robot gives tasks out from now on, as it heard nothing more of who did.
+    TakesOver {
+        /// When, in ms.
+        t_ms: u64,
+        /// The robot.
+        robot: usize,
+        /// Whether it had a copy of what the auctioneer before knew.
+        copied: bool,
+    },
     /// All tasks have ended: the numbers of the run.
     End(Box<Run>),
 }
@@ -204,6 +213,7 @@ impl Line for Record {
             | Self::Silent { t_ms, .. }
             | Self::Reopened { t_ms, .. }
             | Self::Done { t_ms, .. }
+            | Self::TakesOver { t_ms, .. }
             | Self::Reported { t_ms, .. } => *t_ms,
             Self::End(_) => u64::MAX,
         }
@@ -248,6 +258,15 @@ pub struct Run {
     pub rounds: u32,
     /// Messages sent, of each kind, in the order of [`Kind::ALL`].
     pub messages: [u64; Kind::ALL.len()],
+    /// Messages by which robots are ready to take over, and do.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub copies: u64,
+    /// How often a robot took over from an auctioneer that was silent.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub takeovers: u32,
+    /// How often it did so while the one before still gave tasks out: never.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub rivals: u32,
     /// Messages that got lost.
     pub lost: u64,
     /// For how long robots worked for tasks, all together, in ms.
@@ -279,6 +298,11 @@ const fn is_none(count: &u32) -> bool {
     *count == 0
 }
 
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+const fn is_zero(count: &u64) -> bool {
+    *count == 0
+}
+
 /// The uses of a skill of a robot in a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SkillUses {
@@ -302,13 +326,14 @@ impl Run {
 
     /// How many messages of this kind were sent.
     pub fn sent(&self, kind: Kind) -> u64 {
-        self.messages[kind as usize]
+        self.messages.get(kind as usize).copied().unwrap_or(self.copies)
     }
 
     /// Whether all that must hold holds: each task is done or reported, no object was delivered
-    /// twice, and nobody worked for two awards of a task at once.
+    /// twice, nobody worked for two awards of a task at once, and one at most gave tasks out.
     pub fn is_sound(&self) -> bool {
         self.overlaps == 0
+            && self.rivals == 0
             && !self.fates.contains(&Fate::Open)
             && self.deliveries.iter().all(|it| *it <= 1)
             && self.fates.iter().zip(&self.deliveries).all(|it| *it.0 != Fate::Done || *it.1 == 1)

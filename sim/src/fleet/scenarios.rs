@@ -7,7 +7,8 @@ use cotama_core::team::Combine;
 use cotama_models::team::scenario;
 use cotama_models::team::scenario::{
     FailureRates, Fault, FaultKind, FaultTime, Floor, Formation, Give, MAX_ROBOTS, Method, Needs,
-    Place, PlanSpec, Quality, RobotSpec, RoleSpec, Row, Scenario, Take, TaskSpec, Trust,
+    Place, PlanSpec, Quality, RobotSpec, RoleSpec, Row, Scenario, Seat, Stay, Take, TaskSpec,
+    Trust,
 };
 use cotama_models::team::service::{DETECT, GRASP_2F, MOVE};
 use cotama_models::team::{Capability, CapabilitySet, Reliability, Skill};
@@ -41,6 +42,10 @@ pub struct FleetOptions {
     /// ever does. Where one does, grippers take and give for a minute, ten uses of each have gone
     /// well before, and deliveries come more slowly.
     pub gripper_fails_permille: u16,
+    /// Whether a robot gives tasks out, the first one, and others take over when it fails.
+    pub takeover: bool,
+    /// How often whoever gives tasks out then fails.
+    pub kills: usize,
     /// How tasks are given to robots.
     pub method: Method,
     /// The seed of all random numbers.
@@ -50,8 +55,17 @@ pub struct FleetOptions {
 impl Default for FleetOptions {
     fn default() -> Self {
         let method = Method::Optimal;
-        let (robots, tasks, failures, gripper_fails_permille) = (40, 200, 5, 0);
-        Self { robots, tasks, failures, loss_permille: 50, gripper_fails_permille, method, seed: 0 }
+        Self {
+            robots: 40,
+            tasks: 200,
+            failures: 5,
+            loss_permille: 50,
+            gripper_fails_permille: 0,
+            takeover: false,
+            kills: 0,
+            method,
+            seed: 0,
+        }
     }
 }
 
@@ -116,6 +130,7 @@ pub fn fleet(options: &FleetOptions) -> Scenario {
                 .collect(),
             fails: FailureRates::NONE.with(GRASP_2F, rate),
             start: Place(number * 7 % (2 * NODES)),
+            stay: Stay::default(),
         }
     };
     Scenario {
@@ -124,11 +139,11 @@ pub fn fleet(options: &FleetOptions) -> Scenario {
         floor,
         robots: (0..robots).map(robot).collect(),
         tasks: tasks.collect(),
-        faults: faults(robots, options.failures, horizon, &mut streams.stream("fleet faults")),
+        faults: faults(options, robots, horizon, streams),
         network: Quality { loss_permille: options.loss_permille, ..Quality::OFFICE },
         method: options.method,
         formation: Formation::Central,
-        auctioneer: None,
+        auctioneer: if options.takeover { Seat::Queue(0) } else { Seat::Desk },
         slack_permille: 1_000,
         second_best: false,
         trust: Trust::default(),
@@ -148,8 +163,20 @@ fn drives_and_grasps(role: &mut RoleSpec) {
     (role.take_ms, role.give_ms) = (60_000, 60_000);
 }
 
-/// Some robots fail for good, as many others in part.
-fn faults(robots: usize, failures: usize, horizon: u64, stream: &mut Stream) -> Vec<Fault> {
+/// Some robots fail for good, as many others in part; whoever gives tasks out fails now and then.
+fn faults(options: &FleetOptions, robots: usize, horizon: u64, streams: Streams) -> Vec<Fault> {
+    let mut all = failures(robots, options.failures, horizon, &mut streams.stream("fleet faults"));
+    let mut moments = streams.stream("fleet auctioneers");
+    let laptop = Row::named("PWR1").filter(|_| options.takeover);
+    let kill = |row| Fault {
+        when: FaultTime::At(moments.below(horizon + 1)),
+        what: FaultKind::Auctioneer(row),
+    };
+    all.extend(laptop.into_iter().cycle().take(options.kills).map(kill));
+    all
+}
+
+fn failures(robots: usize, failures: usize, horizon: u64, stream: &mut Stream) -> Vec<Fault> {
     let mut order: Vec<usize> = (0..robots).collect();
     for at in (1..robots).rev() {
         order.swap(at, stream.below(at as u64 + 1) as usize);
@@ -325,6 +352,7 @@ pub fn worst(case: Worst, robots: usize) -> Scenario {
         skills: vec![Skill::certain(MOVE), Skill::certain(GRASP_2F)],
         fails: FailureRates::NONE,
         start: Place(0),
+        stay: Stay::default(),
     };
     Scenario {
         name: "worst case of a round".into(),
@@ -339,7 +367,7 @@ pub fn worst(case: Worst, robots: usize) -> Scenario {
             Worst::TogetherDistributed => Formation::Distributed,
             _ => Formation::Central,
         },
-        auctioneer: None,
+        auctioneer: Seat::Desk,
         slack_permille: 1_000,
         second_best: false,
         trust: Trust::default(),

@@ -1,6 +1,7 @@
 //! Properties of every run.
 
 mod skills;
+mod succession;
 
 use super::allocate::Allocator;
 use super::record::{Fate, Record, Run};

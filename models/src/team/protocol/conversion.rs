@@ -32,9 +32,9 @@ impl From<&Scenario> for Team {
                 |role: &RoleSpec| (0..robots).filter(|r| role.possible(able[*r])).collect();
             let plans = it.plans.iter().map(|it| it.roles.iter().map(capable).collect());
             let in_turn = number.checked_rem(robots).unwrap_or(0);
-            Job { received: scenario.auctioneer.unwrap_or(in_turn), plans: plans.collect() }
+            Job { received: scenario.auctioneer.robot().unwrap_or(in_turn), plans: plans.collect() }
         });
-        let fails = |it: &Fault| matches!(it.what, FaultKind::Robot(..));
+        let fails = |it: &Fault| matches!(it.what, FaultKind::Robot(..) | FaultKind::Auctioneer(_));
         let failures = scenario.faults.iter().filter(|it| fails(it)).count().min(robots);
         let tasks = tasks.collect();
         Self::of(robots, failures as u32, tasks).without_old_messages()

@@ -207,7 +207,7 @@ impl Scenario {
     }
 
     /// Runs something on the part of a robot in a role at the start of a run; `None` where there is
-    /// no such robot or task.
+    /// no such robot or task, or the robot joins later.
     pub(super) fn at_start<R>(
         &self,
         robot: usize,
@@ -215,7 +215,8 @@ impl Scenario {
         role: &RoleSpec,
         act: impl FnOnce(&Outlook<'_>) -> R,
     ) -> Option<R> {
-        let (who, object) = (self.robots.get(robot)?, self.tasks.get(task)?.start);
+        let who = self.robots.get(robot).filter(|it| it.stay.works(0))?;
+        let object = self.tasks.get(task)?.start;
         let at = |place: Place| Spot::at(place);
         let skills = who.trusted(self.trust);
         Some(act(&Outlook {

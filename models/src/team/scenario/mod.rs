@@ -46,6 +46,7 @@ mod floor;
 mod ground;
 mod reader;
 mod reasons;
+mod seat;
 #[cfg(test)]
 mod tests;
 mod track;
@@ -59,6 +60,7 @@ pub use floor::{Floor, On, Place, Spot};
 pub use ground::{Asked, MOST_PAIRED, MOST_PLANNED, Ways};
 pub use reader::{FAULTS, FaultsOfTeam};
 pub use reasons::{Contest, Counted, Lack, Offer, Reasons};
+pub use seat::{Seat, Stay};
 pub use trust::{FailureRates, Trust};
 pub use worker::{Row, drive_ms, pace, planning_ms, robot, steps};
 
@@ -86,6 +88,8 @@ pub struct RobotSpec {
     pub fails: FailureRates,
     /// Start on the floor.
     pub start: Place,
+    /// When it is part of the team.
+    pub stay: Stay,
 }
 
 impl RobotSpec {
@@ -294,6 +298,9 @@ pub enum FaultTime {
 pub enum FaultKind {
     /// A robot fails.
     Robot(usize, Row),
+    /// The robot that gives tasks out at that time fails; nobody, where the auctioneer is at a
+    /// desk, or where none leads.
+    Auctioneer(Row),
     /// The object of a task moves under the hand: it is to be taken again.
     Shifted(usize),
     /// The object of a task turns: these capabilities can no longer take it.
@@ -392,8 +399,8 @@ pub struct Scenario {
     pub method: Method,
     /// The search for coalitions.
     pub formation: Formation,
-    /// At which robot the auctioneer is; if none it is at a desk of its own.
-    pub auctioneer: Option<usize>,
+    /// Who gives tasks out.
+    pub auctioneer: Seat,
     /// How much more than its bid a role may cost, in thousandths.
     pub slack_permille: u32,
     /// Whether a robot also gives a task back when it costs more than the second-best bid.

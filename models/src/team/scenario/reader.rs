@@ -6,7 +6,7 @@ mod task;
 
 use super::{
     FORMAT, Fault, FaultKind, FaultTime, Formation, MANY, MAX_ROBOTS, Method, Quality, RobotSpec,
-    Row, Scenario, Stage, Trust, Ways,
+    Row, Scenario, Seat, Stage, Stay, Trust, Ways,
 };
 use crate::missions::faults::Expected;
 use crate::missions::reader::fields::{Fields, Reported, Sink, document, document_of_either};
@@ -226,7 +226,7 @@ fn network(fields: Result<Option<Fields<'_>>, Reported>) -> Option<Quality> {
 struct Auction {
     method: Method,
     formation: Formation,
-    auctioneer: Option<usize>,
+    auctioneer: Seat,
     slack_permille: u32,
     second_best: bool,
     trust: Trust,
@@ -237,7 +237,7 @@ impl Default for Auction {
         Self {
             method: Method::default(),
             formation: Formation::default(),
-            auctioneer: None,
+            auctioneer: Seat::Desk,
             slack_permille: 1_000,
             second_best: false,
             trust: Trust::default(),
@@ -256,6 +256,7 @@ fn auction(fields: Result<Option<Fields<'_>>, Reported>, names: &Names) -> Optio
         Ok(name) => among(&fields, name.as_ref(), "robot", &names.robots).map(Some).ok_or(Reported),
         Err(it) => Err(it),
     };
+    let takeover = fields.optional_flag("takeover");
     let slack = fields.optional_integer("slack_permille", 0..=1_000_000);
     let second_best = fields.optional_flag("second_best");
     let trust = one_of(&mut fields, "trust", "trust", Trust::ALL.map(|it| (it.name(), it)));
@@ -263,7 +264,11 @@ fn auction(fields: Result<Option<Fields<'_>>, Reported>, names: &Names) -> Optio
     Some(Auction {
         method: method.ok()?.unwrap_or(usual.method),
         formation: formation.ok()?.unwrap_or(usual.formation),
-        auctioneer: auctioneer.ok()?,
+        auctioneer: match (auctioneer.ok()?, takeover.ok()?.unwrap_or(false)) {
+            (robot, true) => Seat::Queue(robot.unwrap_or(0)),
+            (Some(robot), false) => Seat::Robot(robot),
+            (None, false) => Seat::Desk,
+        },
         slack_permille: slack.ok()?.unwrap_or(usual.slack_permille),
         second_best: second_best.ok()?.unwrap_or(usual.second_best),
         trust: trust.ok()?.unwrap_or(usual.trust),
@@ -287,9 +292,25 @@ fn robot(mut fields: Fields<'_>, names: &mut Names) -> Option<RobotSpec> {
     let at = fields.text("at");
     let start = names.places.place(&fields, at.as_ref());
     let skills = skills(&mut fields, names);
+    let stay = stay(&mut fields);
     fields.finish();
     let (skills, fails) = skills?;
-    Some(RobotSpec { name: name?, skills, fails, start: start? })
+    Some(RobotSpec { name: name?, skills, fails, start: start?, stay: stay? })
+}
+
+/// When a robot joins the team, and when it leaves.
+fn stay(fields: &mut Fields<'_>) -> Option<Stay> {
+    let joins = fields.optional_integer("joins_ms", AMOUNTS);
+    let leaves = fields.optional_integer("leaves_ms", AMOUNTS);
+    let stay = Stay { joins_ms: joins.ok()?.unwrap_or(0), leaves_ms: leaves.ok()? };
+    if stay.leaves_ms.is_some_and(|it| it <= stay.joins_ms) {
+        let message = "the robot leaves before it joins";
+        let help = "let `leaves_ms` be more than `joins_ms`, which is 0 if left out";
+        let span = fields.span_of("leaves_ms");
+        fields.report(Diagnostic::new(span, message, "too early").help(help));
+        return None;
+    }
+    Some(stay)
 }
 
 fn fault(mut fields: Fields<'_>, names: &Names) -> Option<Fault> {
@@ -297,13 +318,12 @@ fn fault(mut fields: Fields<'_>, names: &Names) -> Option<Fault> {
     let when = moment(&mut fields, names, span.clone());
     let what = [fields.has("robot"), fields.has("shifts"), fields.has("turns")];
     let what = match what {
+        [false, false, false] if fields.has("mode") => row(&mut fields).map(FaultKind::Auctioneer),
         [true, false, false] => {
             let robot = fields.text("robot");
             let robot = among(&fields, robot.as_ref(), "robot", &names.robots);
-            let mode = fields.text("mode");
-            let modes = || Row::all().map(Row::name);
-            let mode = mode.and_then(|it| fields.index_of(&it, "failure mode", modes()));
-            robot.zip(mode.and_then(Row::new)).map(|(robot, row)| FaultKind::Robot(robot, row))
+            let row = row(&mut fields);
+            robot.zip(row).map(|(robot, row)| FaultKind::Robot(robot, row))
         }
         [false, true, false] => {
             let task = fields.text("shifts");
@@ -322,7 +342,8 @@ fn fault(mut fields: Fields<'_>, names: &Names) -> Option<Fault> {
         }
         _ => {
             let message = "a fault is of one robot, or of the object of one task";
-            let help = "write `robot` and `mode`, or `shifts`, or `turns` and `hides`";
+            let help = "write `robot` and `mode` (`mode` alone for the auctioneer), or `shifts`, or \
+                        `turns` and `hides`";
             fields.report(Diagnostic::new(span, message, "one of these").help(help));
             fields.abandon();
             return None;
@@ -330,6 +351,12 @@ fn fault(mut fields: Fields<'_>, names: &Names) -> Option<Fault> {
     };
     fields.finish();
     Some(Fault { when: when?, what: what? })
+}
+
+/// The failure mode of a fault.
+fn row(fields: &mut Fields<'_>) -> Option<Row> {
+    let mode = fields.text("mode")?;
+    fields.index_of(&mode, "failure mode", Row::all().map(Row::name)).and_then(Row::new)
 }
 
 /// When a fault happens: `at_ms`, or `while` a robot is in a `stage` `of` a task.

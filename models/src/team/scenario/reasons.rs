@@ -53,6 +53,8 @@ pub enum Lack {
     Way,
     /// The cost is more than a bid can say.
     Cost,
+    /// The robot joins the team later.
+    Away,
 }
 
 /// A coalition that can do a task by one of its plans.
@@ -100,6 +102,9 @@ impl Scenario {
     /// assert!(missing[0].has(DIALOGUE) && !missing[0].has(MOVE));
     /// ```
     pub fn reasons(&self, robot: usize, task: usize, role: &RoleSpec) -> Result<Reasons, Lack> {
+        if self.robots.get(robot).is_some_and(|it| !it.stay.works(0)) {
+            return Err(Lack::Away);
+        }
         let reasons = self.at_start(robot, task, role, |outlook| {
             let missing = role.missing(outlook.able);
             if !missing.is_empty() {

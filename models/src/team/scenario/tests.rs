@@ -4,7 +4,7 @@ mod made;
 
 use super::{
     FailureRates, Fault, FaultKind, FaultTime, Formation, Give, Method, Needs, Place, PlanSpec,
-    RobotSpec, RoleSpec, Row, Scenario, Stage, Take, TaskSpec, Trust, service,
+    RobotSpec, RoleSpec, Row, Scenario, Seat, Stage, Stay, Take, TaskSpec, Trust, service,
 };
 use crate::team::service::{BRING, FETCH, ORDER};
 use crate::team::{Capability, CapabilitySet, Reliability, Role, Skill};
@@ -140,7 +140,9 @@ fn fault() -> impl Strategy<Value = Fault> {
         after_ms,
     });
     let modes = prop::sample::select(Row::all().collect::<Vec<_>>());
+    let rows = modes.clone();
     let what = prop_oneof![
+        rows.prop_map(FaultKind::Auctioneer),
         (0_usize..2, modes).prop_map(|(robot, mode)| FaultKind::Robot(robot, mode)),
         (0_usize..2).prop_map(FaultKind::Shifted),
         (0_usize..2, set()).prop_map(|(task, hides)| FaultKind::Turned(task, hides)),
@@ -174,13 +176,20 @@ fn scenario() -> impl Strategy<Value = Scenario> {
     let auction = (
         prop::sample::select(Method::ALL.to_vec()),
         prop::sample::select(Formation::ALL.to_vec()),
-        prop::option::of(0_usize..2),
+        (0_usize..2, 0_u8..3).prop_map(|(robot, kind)| match kind {
+            0 => Seat::Desk,
+            1 => Seat::Robot(robot),
+            _ => Seat::Queue(robot),
+        }),
         0_u32..3_000,
         any::<bool>(),
         prop::sample::select(Trust::ALL.to_vec()),
     );
-    let ways = prop::collection::vec(1_u64..90_000, 3);
-    (skills, tasks, faults, auction, ways).prop_map(|(skills, tasks, faults, auction, ways)| {
+    let stay = (0_u64..90, prop::option::of(1_u64..90))
+        .prop_map(|(joins_ms, more)| Stay { joins_ms, leaves_ms: more.map(|it| joins_ms + it) });
+    let ways = (prop::collection::vec(1_u64..90_000, 3), prop::collection::vec(stay, 4));
+    (skills, tasks, faults, auction, ways).prop_map(|(skills, tasks, faults, auction, more)| {
+        let (ways, stays) = more;
         let (method, formation, auctioneer, slack_permille, second_best, trust) = auction;
         let ends = [(0, 1), (1, 2), (1, 3)];
         let ways: Vec<_> = ends.iter().zip(ways).map(|(it, mm)| (it.0, it.1, mm)).collect();
@@ -194,6 +203,7 @@ fn scenario() -> impl Strategy<Value = Scenario> {
                     fails: fails(&skills, &rates),
                     skills,
                     start: Place(number),
+                    stay: stays[number],
                 })
                 .collect(),
             tasks: vec![tasks.0, tasks.1],

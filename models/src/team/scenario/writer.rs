@@ -1,8 +1,8 @@
 //! Writing a team as a file.
 
 use super::{
-    FAULTS, FORMAT, Fault, FaultKind, FaultTime, Give, Needs, RoleSpec, Scenario, Take, TaskSpec,
-    Trust,
+    FAULTS, FORMAT, Fault, FaultKind, FaultTime, Give, Needs, RoleSpec, Scenario, Seat, Take,
+    TaskSpec, Trust,
 };
 use crate::team::{CapabilitySet, Reliability, Skill};
 use crate::toml_text::quoted;
@@ -74,8 +74,11 @@ impl Lines<'_> {
         self.head("[auction]");
         self.line("method", quoted(it.method.name()));
         self.line("formation", quoted(it.formation.name()));
-        if let Some(robot) = it.auctioneer {
+        if let Some(robot) = it.auctioneer.robot() {
             self.line("auctioneer", quoted(&it.robots[robot].name));
+        }
+        if matches!(it.auctioneer, Seat::Queue(_)) {
+            self.line("takeover", true);
         }
         self.line("slack_permille", it.slack_permille);
         self.line("second_best", it.second_best);
@@ -90,6 +93,12 @@ impl Lines<'_> {
             let skilled = |it: &Skill| self.skilled(it, robot.fails.of(it.capability));
             let skills: Vec<_> = robot.skills.iter().map(skilled).collect();
             self.line("skills", format!("[{}]", skills.join(", ")));
+            if robot.stay.joins_ms > 0 {
+                self.line("joins_ms", robot.stay.joins_ms);
+            }
+            if let Some(leaves) = robot.stay.leaves_ms {
+                self.line("leaves_ms", leaves);
+            }
         }
         it.tasks.iter().for_each(|it| self.task(it));
         for it in &it.faults {
@@ -222,6 +231,7 @@ impl Lines<'_> {
                 self.line("robot", quoted(&it.robots[robot].name));
                 self.line("mode", quoted(mode.name()));
             }
+            FaultKind::Auctioneer(mode) => self.line("mode", quoted(mode.name())),
             FaultKind::Shifted(task) => self.line("shifts", quoted(&it.tasks[task].name)),
             FaultKind::Turned(task, hides) => {
                 self.line("turns", quoted(&it.tasks[task].name));

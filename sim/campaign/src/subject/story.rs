@@ -25,6 +25,10 @@ impl Subject<'_> {
             FaultKind::Robot(it, mode) => {
                 format!("{when}, {} fails: {}", robot(it), fleet::trace::Trace::words(mode))
             }
+            FaultKind::Auctioneer(mode) => {
+                let words = fleet::trace::Trace::words(mode);
+                format!("{when}, whoever gives tasks out fails: {words}")
+            }
             FaultKind::Shifted(it) => format!("{when}, the object of {} is shifted", task(it)),
             FaultKind::Turned(it, _) => format!("{when}, the object of {} is turned", task(it)),
         }

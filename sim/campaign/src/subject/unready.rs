@@ -18,6 +18,8 @@ pub enum Unready {
     Property(String, Unmonitored),
     /// A requirement is about supervisors, and the mission has none: its text.
     Plain(String),
+    /// A requirement is about teams, and the subject is none: its text.
+    NoTeam(String),
 }
 
 impl fmt::Display for Unready {
@@ -31,6 +33,9 @@ impl fmt::Display for Unready {
                  what weighs most, and what would help"
             ),
             Self::Property(text, why) => write!(f, "`{}`: {why}", text.escape_debug()),
+            Self::NoTeam(text) => {
+                write!(f, "`{}` is about teams, and the mission is none", text.escape_debug())
+            }
             Self::Plain(text) => write!(
                 f,
                 "`{}` is about supervisors, and the mission has none",

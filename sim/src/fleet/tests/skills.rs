@@ -11,7 +11,7 @@ use crate::streams::Streams;
 use cotama_core::team::Combine;
 use cotama_models::team::scenario::{
     FailureRates, Fault, FaultKind, FaultTime, Floor, Give, Needs, Place, PlanSpec, RobotSpec,
-    RoleSpec, Scenario, Stage, Take, TaskSpec, Trust,
+    RoleSpec, Scenario, Stage, Stay, Take, TaskSpec, Trust,
 };
 use cotama_models::team::service::{GRASP_2F, MOVE};
 use cotama_models::team::{CapabilitySet, Probability, Reliability, Skill};
@@ -26,6 +26,7 @@ fn robot(name: &str, start: usize, fails: u16, known: Reliability) -> RobotSpec 
         skills: vec![Skill::certain(MOVE), grasps],
         fails: FailureRates::NONE.with(GRASP_2F, fails),
         start: Place(start),
+        stay: Stay::default(),
     }
 }
 

@@ -1,5 +1,6 @@
 //! The auctioneer: it announces, awards, watches, and puts up again.
 
+use super::succession::Office;
 use super::{Planted, World};
 use crate::fleet::allocate::{Allocator, denominator, is_shared};
 use crate::fleet::bid::{Offer, Share};
@@ -74,18 +75,29 @@ struct Auction {
     deadline: u64,
 }
 
+/// What an auctioneer knows, and whoever takes over from it has to know.
+#[derive(Clone, Debug)]
+pub(in crate::fleet) struct Ledger {
+    pub(super) round: u32,
+    pub(super) tickets: Vec<Rc<Ticket>>,
+}
+
 /// The state of the auctioneer.
 #[derive(Clone, Debug)]
 pub(super) struct Auctioneer {
     pub(super) address: usize,
+    /// Whether it is there: with the laptop of its robot it is gone.
+    pub(super) up: bool,
+    /// The robots that may take over from it, and what they are told first.
+    pub(super) office: Office,
     round: u32,
     auction: Option<Auction>,
     next_auction: u64,
-    pub(super) tickets: Vec<Ticket>,
+    pub(super) tickets: Vec<Rc<Ticket>>,
     /// Tasks that are neither unknown nor over.
     live: Vec<usize>,
     /// Time of the last message of each robot, and its contents.
-    last_heard: Vec<u64>,
+    pub(super) last_heard: Vec<u64>,
     busy: RobotSet,
     unfit: RobotSet,
 }
@@ -109,11 +121,13 @@ impl Auctioneer {
             past: Vec::new(),
         };
         Self {
-            address: scenario.auctioneer.unwrap_or(scenario.robots.len()),
+            address: scenario.auctioneer.robot().unwrap_or(scenario.robots.len()),
+            up: true,
+            office: Office::default(),
             round: 0,
             auction: None,
             next_auction: 0,
-            tickets: vec![ticket; scenario.tasks.len()],
+            tickets: std::iter::repeat_n(Rc::new(ticket), scenario.tasks.len()).collect(),
             live: Vec::new(),
             last_heard: vec![0; scenario.robots.len()],
             busy: 0,
@@ -121,17 +135,37 @@ impl Auctioneer {
         }
     }
 
-    pub(super) const fn party(&self) -> Party {
-        Party::Auctioneer(self.address)
+    pub(super) fn ticket_mut(&mut self, task: usize) -> &mut Ticket {
+        Rc::make_mut(&mut self.tickets[task])
     }
 
-    pub(super) fn known_since(&self, task: usize) -> u64 {
-        self.tickets[task].known_since
+    /// The knowledge that another needs to go on.
+    pub(super) fn ledger(&self) -> Ledger {
+        Ledger { round: self.round, tickets: self.tickets.clone() }
+    }
+
+    /// An auctioneer that goes on with what another one knew.
+    pub(super) fn successor(self, address: usize, ledger: &Ledger, office: Office) -> Self {
+        let (round, tickets) = (ledger.round, ledger.tickets.clone());
+        let over = |it: &usize| {
+            !matches!(tickets[*it].state, State::Unknown | State::Done | State::Reported)
+        };
+        let live = (0..tickets.len()).filter(over).collect();
+        Self { address, office, round, tickets, live, ..self }
+    }
+
+    pub(super) const fn party(&self) -> Party {
+        Party::Auctioneer(self.address)
     }
 
     /// Something is open or somebody free: an auction may come to more than the last.
     pub(super) fn changed(&mut self, now: u64) {
         self.next_auction = self.next_auction.min(now + PAUSE);
+    }
+
+    /// The first auction is when robots have been told.
+    pub(super) fn begin(&mut self, now: u64) {
+        self.next_auction = now + PAUSE;
     }
 
     /// The robots with an award.
@@ -147,13 +181,12 @@ impl Auctioneer {
 }
 
 impl World<'_> {
-    /// A task becomes known.
-    pub(super) fn open(&mut self, task: usize) {
-        self.note(|t_ms| Record::Opened { t_ms, task });
-        let (now, ticket) = (self.now, &mut self.auctioneer.tickets[task]);
-        (ticket.state, ticket.known_since) = (State::Open, now);
+    /// A task becomes known to who gives tasks out.
+    pub(super) fn take_on(&mut self, task: usize, known_since: u64) {
+        let ticket = self.auctioneer.ticket_mut(task);
+        (ticket.state, ticket.known_since) = (State::Open, known_since);
         self.auctioneer.live.push(task);
-        self.auctioneer.changed(now);
+        self.auctioneer.changed(self.now);
     }
 
     /// The auctioneer looks at its tasks.
@@ -210,7 +243,7 @@ impl World<'_> {
         self.auctioneer.round += 1;
         let (round, tasks): (u32, Rc<[usize]>) = (self.auctioneer.round, open.into());
         for &task in &*tasks {
-            self.auctioneer.tickets[task].state = State::Announced;
+            self.auctioneer.ticket_mut(task).state = State::Announced;
         }
         self.auctioneer.auction = Some(Auction {
             round,
@@ -294,7 +327,7 @@ impl World<'_> {
             });
         let offered = staffed || !auction.shares.is_empty();
         let engaged = self.auctioneer.engaged() | self.auctioneer.busy;
-        let ticket = &mut self.auctioneer.tickets[task];
+        let ticket = self.auctioneer.ticket_mut(task);
         ticket.state = State::Open;
         if ticket.finished {
             self.close(task);
@@ -318,11 +351,20 @@ impl World<'_> {
         let (now, auctioneer) = (self.now, &mut self.auctioneer);
         let bit: RobotSet = 1 << robot;
         auctioneer.last_heard[robot] = now;
+        auctioneer.office.met |= bit;
         debug_assert!(message.kind() != Kind::Announce);
         match message {
-            Message::Alive { busy, fit } => {
+            Message::Alive { busy, fit, asks } => {
                 auctioneer.busy = auctioneer.busy & !bit | if busy { bit } else { 0 };
                 auctioneer.unfit = auctioneer.unfit & !bit | if fit { 0 } else { bit };
+                if asks {
+                    let from = auctioneer.party();
+                    self.send(from, Party::Robot(robot), Message::Leads);
+                }
+            }
+            Message::Copied { term, version, sent_ms } => {
+                auctioneer.office.copied(robot, term, version, sent_ms);
+                self.let_go();
             }
             Message::Bid { round, offers, coalition } => {
                 let Some(auction) = &mut auctioneer.auction else { return };
@@ -339,7 +381,7 @@ impl World<'_> {
             Message::Ack { award } => self.acked(robot, award),
             Message::Nack { award } => self.refused(robot, award),
             Message::Status { award, status } => match status {
-                Status::Progress => self.prolong(robot, award),
+                Status::Progress => self.progresses(robot, award),
                 Status::Completed => self.completed(robot, award),
                 Status::Failed(class) => self.failed(robot, award, class),
             },

@@ -15,6 +15,13 @@ const ACKS: u64 = 4_000;
 /// A task is reported after so many awards.
 const MOST_AWARDS: u32 = 10;
 
+impl Ticket {
+    /// Answers are waited for from now on.
+    pub(super) fn wait_anew(&mut self, now: u64) {
+        (self.deadline, self.resend) = (now + ACKS, now);
+    }
+}
+
 impl World<'_> {
     /// An award goes to its members; who they are.
     pub(super) fn award_to(&mut self, share: &Share, round: u32, second: Option<u64>) -> RobotSet {
@@ -30,7 +37,6 @@ impl World<'_> {
             robots: share.robots.iter().map(|it| it.robot).collect(),
             pledges_ms: pledges_ms.clone(),
             members,
-            auctioneer: self.auctioneer.address,
         });
         let plan = self.scenario.tasks[share.task].plans[share.plan].name.clone();
         let (task, robots) = (share.task, award.robots.clone());
@@ -49,7 +55,7 @@ impl World<'_> {
             success,
         });
         self.run.awards[task] += 1;
-        let ticket = &mut self.auctioneer.tickets[task];
+        let ticket = self.auctioneer.ticket_mut(task);
         if let Some(before) = ticket.award.take() {
             ticket.past.push((before, ticket.completed));
         }
@@ -65,14 +71,14 @@ impl World<'_> {
     /// Tells those members of their award who have not acknowledged.
     fn assign(&mut self, task: usize) {
         let (until_ms, from) = (self.now + LEASE, self.auctioneer.party());
-        let ticket = &mut self.auctioneer.tickets[task];
+        let ticket = self.auctioneer.ticket_mut(task);
         ticket.resend = self.now + 2 * TICK;
         let Some(award) = ticket.award.clone() else { return };
         for (place, &robot) in award.robots.iter().enumerate() {
             if self.auctioneer.tickets[task].acked >> robot & 1 == 1 {
                 continue;
             }
-            self.auctioneer.tickets[task].until[place] = until_ms;
+            self.auctioneer.ticket_mut(task).until[place] = until_ms;
             let message = Message::Assign { award: Some(Rc::clone(&award)), until_ms };
             self.send(from, Party::Robot(robot), message);
         }
@@ -107,7 +113,7 @@ impl World<'_> {
 
     /// Takes an award back.
     fn withdraw(&mut self, task: usize) {
-        let ticket = &mut self.auctioneer.tickets[task];
+        let ticket = self.auctioneer.ticket_mut(task);
         (ticket.state, ticket.resend) = (State::Withdrawn, self.now);
         self.watch_withdrawal(task);
     }
@@ -115,7 +121,7 @@ impl World<'_> {
     /// When all members have left, or their time is over, the task is open again.
     pub(super) fn watch_withdrawal(&mut self, task: usize) {
         let now = self.now;
-        let ticket = &mut self.auctioneer.tickets[task];
+        let ticket = self.auctioneer.ticket_mut(task);
         let Some(award) = ticket.award.clone() else { return };
         let left = ticket.gone | ticket.completed;
         let lease = self.planted != Some(Planted::NoLease);
@@ -149,7 +155,7 @@ impl World<'_> {
     /// The task is over.
     pub(super) fn close(&mut self, task: usize) {
         self.auctioneer.changed(self.now);
-        let ticket = &mut self.auctioneer.tickets[task];
+        let ticket = self.auctioneer.ticket_mut(task);
         if ticket.finished {
             ticket.state = State::Done;
             let robots = ticket.award.as_ref().map_or(Vec::new(), |it| it.robots.clone());
@@ -165,7 +171,7 @@ impl World<'_> {
 
     /// The ticket of an award, if it is the one in force.
     fn in_force(&mut self, award: AwardId) -> Option<&mut Ticket> {
-        let ticket = self.auctioneer.tickets.get_mut(award.task)?;
+        let ticket = Rc::make_mut(self.auctioneer.tickets.get_mut(award.task)?);
         let same = ticket.award.as_ref().is_some_and(|it| it.id == award);
         let live = matches!(ticket.state, State::Awarded | State::Executing | State::Withdrawn);
         (same && live).then_some(ticket)
@@ -182,6 +188,18 @@ impl World<'_> {
         self.prolong(robot, award);
     }
 
+    /// A member works, so that all have acknowledged; an auctioneer that took over may have missed
+    /// that.
+    pub(super) fn progresses(&mut self, robot: usize, award: AwardId) {
+        if self.auctioneer.office.term > 0
+            && let Some(ticket) = self.in_force(award).filter(|it| it.state == State::Awarded)
+        {
+            ticket.acked = ticket.award.as_ref().map_or(0, |it| it.members);
+            ticket.state = State::Executing;
+        }
+        self.prolong(robot, award);
+    }
+
     /// The award holds for longer, as its member was heard of.
     pub(super) fn prolong(&mut self, robot: usize, award: AwardId) {
         let until_ms = self.now + LEASE;
@@ -189,7 +207,8 @@ impl World<'_> {
             self.release(robot, award, Ending::Withdrawn);
             return;
         };
-        let members = ticket.award.as_ref().map_or(&[][..], |it| &it.robots);
+        let Some(award_here) = ticket.award.clone() else { return };
+        let members = &award_here.robots;
         let Some(place) = members.iter().position(|it| *it == robot) else { return };
         ticket.until[place] = ticket.until[place].max(until_ms);
         let complete = ticket.state == State::Executing;
@@ -226,7 +245,7 @@ impl World<'_> {
 
     /// News of an award that was withdrawn: what is done is done.
     fn completed_late(&mut self, robot: usize, award: AwardId) {
-        let ticket = &mut self.auctioneer.tickets[award.task];
+        let ticket = self.auctioneer.ticket_mut(award.task);
         if ticket.award.as_ref().is_some_and(|it| it.id == award) {
             ticket.completed |= 1 << robot;
             let all = ticket.award.as_ref().is_some_and(|it| it.members & !ticket.completed == 0);

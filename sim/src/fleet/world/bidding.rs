@@ -5,7 +5,7 @@ use super::{Event, World};
 use crate::fleet::allocate::is_shared;
 use crate::fleet::bid::{Offer, Whereabouts};
 use crate::fleet::message::{Message, Party};
-use cotama_models::team::scenario::{Outlook, Quote, RoleSpec, Spot, Take};
+use cotama_models::team::scenario::{Outlook, Quote, RoleSpec, Spot, Take, pace};
 use cotama_models::team::{CapabilitySet, Skill};
 use std::rc::Rc;
 
@@ -70,7 +70,7 @@ impl World<'_> {
     }
 
     pub(super) fn replies_are_due(&mut self, robot: usize, round: u32) {
-        if !self.robots[robot].driver.thinks() {
+        if !self.is_there(robot) {
             return;
         }
         let Some(asking) = &mut self.robots[robot].asking else { return };
@@ -106,14 +106,14 @@ impl World<'_> {
         coalition: Option<crate::fleet::bid::Share>,
     ) {
         let message = Message::Bid { round, offers, coalition };
-        self.send(Party::Robot(robot), self.auctioneer.party(), message);
+        self.send(Party::Robot(robot), self.desk(robot), message);
     }
 
     /// Returns the offers of a robot for the roles of these tasks: none where it cannot, or is
     /// busy.
     pub(super) fn offers(&self, robot: usize, tasks: &[usize]) -> Vec<Offer> {
         let agent = &self.robots[robot];
-        if !matches!(agent.duty, Duty::Free) || !agent.is_fit() {
+        if !matches!(agent.duty, Duty::Free) || !self.works(robot) {
             return Vec::new();
         }
         // A robot with an object on board works for its task only.
@@ -156,7 +156,12 @@ impl World<'_> {
             ends: self.places(robot, task, role)?,
             holds: role.take == Take::Object && agent.holds == Some(task),
         };
-        self.scenario.quote(role, &outlook)
+        let quote = self.scenario.quote(role, &outlook)?;
+        let slowed = pace(0) > Some(outlook.pace);
+        if self.planted == Some(super::Planted::BidsInSeconds) && slowed {
+            return Some(Quote { cost_ms: quote.cost_ms / 1_000, ..quote });
+        }
+        Some(quote)
     }
 
     /// Returns the spots where a robot takes and gives in a role; `None` where the object is
@@ -175,7 +180,7 @@ impl World<'_> {
 
     /// Whether some robots that can work can do a task together.
     pub(super) fn others_can(&mut self, task: usize) -> bool {
-        let fit = (0..self.robots.len()).filter(|it| self.robots[*it].is_fit());
+        let fit = (0..self.robots.len()).filter(|it| self.works(*it));
         let fit: Vec<usize> = fit.collect();
         let spec = &self.scenario.tasks[task];
         let can: Vec<Vec<Vec<bool>>> = spec

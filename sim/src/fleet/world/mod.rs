@@ -5,6 +5,7 @@ mod auctioneer;
 mod awards;
 mod bidding;
 mod robot;
+mod succession;
 #[cfg(test)]
 mod tests;
 mod working;
@@ -19,10 +20,12 @@ use crate::fleet::bid::{Object, Whereabouts};
 use crate::kernel::Queue;
 use crate::streams::Streams;
 use auctioneer::Auctioneer;
+pub(super) use auctioneer::Ledger;
 use cotama_models::team::CapabilitySet;
 use cotama_models::team::scenario::Spot;
-use cotama_models::team::scenario::{FaultKind, FaultTime, Scenario, Stage};
+use cotama_models::team::scenario::{FaultKind, FaultTime, Row, Scenario, Stage, Trust};
 use robot::{Agent, Duty};
+use succession::Follows;
 
 /// A robot says so often how it is, and looks at its terms so often, in ms.
 pub(super) const BEAT: u64 = 2_000;
@@ -50,6 +53,8 @@ enum Event {
     Opens(usize),
     /// Something goes wrong: the number of the fault.
     Fault(usize),
+    /// Whoever gave tasks to an auctioneer that nobody follows gives them up.
+    GivenUp,
 }
 
 /// A defect planted on purpose, so that it can be measured what finds it.
@@ -61,6 +66,14 @@ pub enum Planted {
     NoDeadline,
     /// A robot says once that its role is over, whether it is heard or not.
     SaysOnce,
+    /// Letters of the auctioneer leave before its successors have a copy of their reason.
+    NotCopied,
+    /// A robot that drives more slowly than it can when nothing has failed bids in seconds.
+    BidsInSeconds,
+    /// Robots count no use of their skills.
+    StaleReliability,
+    /// A successor takes over after a silence of a second, whatever it promised.
+    TakesOverEarly,
 }
 
 /// A run under way.
@@ -80,6 +93,8 @@ pub(super) struct World<'s> {
     run: Run,
     /// Tasks that are neither done nor reported.
     open: usize,
+    /// When each task became known to who gives it to the team.
+    known: Vec<Option<u64>>,
     /// When a task last became known or ended.
     stirred: u64,
     planted: Option<Planted>,
@@ -91,8 +106,12 @@ impl<'s> World<'s> {
         let streams = Streams::new(scenario.seed);
         let agent = |spec: &cotama_models::team::scenario::RobotSpec| {
             let driver = Driver::new(false);
-            let skills = Skills::new(spec, &scenario.skills, scenario.trust, streams);
-            Agent::new(driver, Spot::at(spec.start), skills)
+            let stale = planted == Some(Planted::StaleReliability);
+            let trust = if stale { Trust::Stated } else { scenario.trust };
+            let skills = Skills::new(spec, &scenario.skills, trust, streams);
+            let follows =
+                Follows::new(scenario.auctioneer.robot().unwrap_or(scenario.robots.len()));
+            Agent::new(driver, Spot::at(spec.start), skills, follows)
         };
         let lies = |it: &cotama_models::team::scenario::TaskSpec| Object {
             at: Whereabouts::Lies(Spot::at(it.start)),
@@ -117,6 +136,7 @@ impl<'s> World<'s> {
                 ..Run::default()
             },
             open: tasks,
+            known: vec![None; tasks],
             stirred: scenario.tasks.iter().map(|it| it.arrival_ms).max().unwrap_or(0),
             planted,
         };
@@ -144,7 +164,12 @@ impl<'s> World<'s> {
     }
 
     /// Runs until each task is done or reported.
-    pub(super) fn run(mut self) -> (Run, Vec<Record>) {
+    pub(super) fn run(self) -> (Run, Vec<Record>) {
+        self.run_and_look(|_| ())
+    }
+
+    /// Runs in the same way, and lets somebody look at the world after each event.
+    fn run_and_look(mut self, mut look: impl FnMut(&Self)) -> (Run, Vec<Record>) {
         while let Some((now, event)) = self.queue.pop() {
             if now > self.stirred + STUCK || self.open == 0 {
                 break;
@@ -155,19 +180,23 @@ impl<'s> World<'s> {
                 Event::Round(robot) => self.round(robot),
                 Event::Beat(robot) => self.beat(robot),
                 Event::Tick => {
-                    self.tick();
+                    self.gives_out();
                     self.queue.push(now + TICK, 2, Event::Tick);
                 }
                 Event::Replies(robot, round) => self.replies_are_due(robot, round),
                 Event::Opens(task) => self.open(task),
                 Event::Fault(number) => self.fault(number),
+                Event::GivenUp => self.given_up(),
             }
+            self.copy_first();
+            look(&self);
         }
         let tasks = self.scenario.tasks.iter().zip(&self.run.fates);
         let undone = tasks.filter(|it| *it.1 != Fate::Done).map(|it| u64::from(it.0.utility_ms));
         self.run.cost_ms = self.run.busy_ms + undone.sum::<u64>();
         self.run.end_ms = self.run.ended_ms.iter().copied().max().unwrap_or(0);
         (self.run.messages, self.run.lost) = (self.network.sent(), self.network.lost());
+        self.run.copies = self.network.copied();
         let energy = self.robots.iter().map(|it| it.driver.energy_mj(self.now));
         self.run.energy_mj = energy.sum();
         self.run.skills = self.skill_uses();
@@ -182,19 +211,33 @@ impl<'s> World<'s> {
     }
 
     fn send(&mut self, from: Party, to: Party, message: Message) {
-        let letter = Letter { from, to, message };
-        for at in self.network.carry(self.now, &letter) {
+        let of_auctioneer = matches!(from, Party::Auctioneer(_));
+        let term = if of_auctioneer { self.auctioneer.office.term } else { 0 };
+        let letter = Letter { from, to, term, message };
+        if of_auctioneer && self.has_successors() {
+            self.send_when_copied(letter);
+        } else {
+            self.post(&letter);
+        }
+    }
+
+    /// A letter leaves.
+    fn post(&mut self, letter: &Letter) {
+        for at in self.network.carry(self.now, letter) {
             self.queue.push(at, 1, Event::Arrives(Box::new(letter.clone())));
         }
     }
 
     fn deliver(&mut self, letter: Letter) {
         match letter.to {
-            Party::Robot(robot) if self.robots[robot].driver.thinks() => {
-                self.hear(robot, letter.from, letter.message);
+            Party::Robot(robot) if self.is_there(robot) => {
+                if self.is_followed(robot, letter.from, letter.term) {
+                    self.hear(robot, letter.from, letter.message);
+                }
             }
-            Party::Auctioneer(_) => {
-                if let Party::Robot(robot) = letter.from {
+            Party::Auctioneer(address) => {
+                let is_it = address == self.auctioneer.address && self.auctioneer.up;
+                if let (Party::Robot(robot), true) = (letter.from, is_it) {
                     self.auctioneer_hears(robot, letter.message);
                 }
             }
@@ -205,13 +248,11 @@ impl<'s> World<'s> {
     /// Something goes wrong.
     fn fault(&mut self, number: usize) {
         match self.scenario.faults[number].what {
-            FaultKind::Robot(robot, mode) => {
-                self.note(|t_ms| Record::Fails { t_ms, robot, mode });
-                self.robots[robot].driver.fail(self.now, mode);
-                if self.robots[robot].driver.thinks() {
-                    self.wake(robot);
-                } else {
-                    self.dies(robot);
+            FaultKind::Robot(robot, mode) => self.fails(robot, mode),
+            FaultKind::Auctioneer(mode) => {
+                let address = self.auctioneer.address;
+                if self.auctioneer.up && address < self.robots.len() {
+                    self.fails(address, mode);
                 }
             }
             FaultKind::Shifted(task) => {
@@ -226,6 +267,27 @@ impl<'s> World<'s> {
         }
     }
 
+    fn fails(&mut self, robot: usize, mode: Row) {
+        self.note(|t_ms| Record::Fails { t_ms, robot, mode });
+        self.robots[robot].driver.fail(self.now, mode);
+        if self.robots[robot].driver.thinks() {
+            self.wake(robot);
+        } else {
+            self.dies(robot);
+        }
+    }
+
+    /// A task becomes known to who gives it to the team.
+    fn open(&mut self, task: usize) {
+        self.note(|t_ms| Record::Opened { t_ms, task });
+        self.known[task] = Some(self.now);
+        if self.auctioneer.up {
+            self.take_on(task, self.now);
+        } else {
+            self.nobody_takes_on();
+        }
+    }
+
     /// A task is done or reported: nobody is to work for it any more.
     fn ends(&mut self, task: usize, fate: Fate) {
         if self.run.fates[task] != Fate::Open {
@@ -236,7 +298,7 @@ impl<'s> World<'s> {
         self.stirred = self.stirred.max(self.now);
         self.run.ended_ms[task] = self.now;
         if fate == Fate::Done {
-            self.run.waited_ms += self.now - self.auctioneer.known_since(task);
+            self.run.waited_ms += self.now - self.known[task].unwrap_or(self.now);
         } else if let Whereabouts::Held(robot) = self.objects[task].at {
             // Somebody comes for it: the robot is free for others.
             self.objects[task].at = Whereabouts::Lies(self.spot(robot));

@@ -1,5 +1,6 @@
 //! A robot of the team: what its broker hears and says.
 
+use super::succession::{Copy, Follows};
 use super::{BEAT, Planted, World};
 use crate::fleet::bid::Offer;
 use crate::fleet::driver::Driver;
@@ -43,6 +44,8 @@ pub(super) struct Agent {
     /// When its next round is.
     pub(super) next_round: Option<u64>,
     was_fit: bool,
+    /// Who gives tasks out, as far as it knows, and its copy of what that one knows.
+    pub(super) follows: Follows,
 }
 
 /// The question of a broker to bidders, and their replies.
@@ -91,7 +94,7 @@ impl Work {
 }
 
 impl Agent {
-    pub(super) fn new(driver: Driver, spot: Spot, skills: Skills) -> Self {
+    pub(super) fn new(driver: Driver, spot: Spot, skills: Skills, follows: Follows) -> Self {
         Self {
             driver,
             skills,
@@ -111,6 +114,7 @@ impl Agent {
             holds: None,
             next_round: None,
             was_fit: true,
+            follows,
         }
     }
 
@@ -198,22 +202,32 @@ impl World<'_> {
             Message::Assign { award: None, .. }
             | Message::Status { .. }
             | Message::Alive { .. }
-            | Message::Bid { .. } => {}
+            | Message::Bid { .. }
+            | Message::Copied { .. }
+            | Message::Leads => {}
+            Message::Copy { version, sent_ms, place, ledger } => {
+                self.keep_copy(robot, Copy { version, sent_ms, place, ledger });
+            }
         }
     }
 
     /// Says how an award ended that the robot has no longer, or never had.
     fn answer_for(&mut self, robot: usize, award: AwardId) {
         let known = self.robots[robot].finals.iter().find(|it| it.0 == award);
-        let message = match known {
-            Some(&(award, status)) => Message::Status { award, status },
-            None => Message::Nack { award },
+        let message = if let Some(&(award, status)) = known {
+            Message::Status { award, status }
+        } else {
+            // The award may still be under way: it is not taken when it comes.
+            let taken = &mut self.robots[robot].taken;
+            *taken = (*taken).max(award.round);
+            Message::Nack { award }
         };
-        self.send(Party::Robot(robot), self.auctioneer.party(), message);
+        self.send(Party::Robot(robot), self.desk(robot), message);
     }
 
     /// An award: it is accepted by who bid in its round and is free.
     fn assigned(&mut self, robot: usize, award: &Rc<Award>, until_ms: u64) {
+        let works = self.works(robot);
         let (round, agent) = (award.id.round, &mut self.robots[robot]);
         if agent.has(award.id) {
             if let Some(work) = agent.work_mut() {
@@ -230,12 +244,14 @@ impl World<'_> {
         // No award is taken twice, and none whose time is over before the robot looks again.
         let new = round > agent.taken;
         let holds = until_ms > self.now + BEAT || self.planted == Some(Planted::NoLease);
-        let free = matches!(agent.duty, Duty::Free) && agent.is_fit() && new;
+        let free = matches!(agent.duty, Duty::Free) && works && new;
         let role = award.robots.iter().position(|it| *it == robot);
         let Some(role) = role.filter(|_| bid && holds && free) else {
+            // No is no: a copy of the award that comes later is not taken.
+            self.robots[robot].taken = self.robots[robot].taken.max(round);
             let others = award.robots.iter().filter(|it| **it != robot);
             let partners = others.map(|it| Party::Robot(*it)).collect::<Vec<_>>();
-            for to in partners.into_iter().chain([self.auctioneer.party()]) {
+            for to in partners.into_iter().chain([self.desk(robot)]) {
                 self.send(Party::Robot(robot), to, Message::Nack { award: award.id });
             }
             return;
@@ -263,7 +279,7 @@ impl World<'_> {
     /// To the auctioneer and to all partners.
     fn acknowledge(&mut self, robot: usize, award: &Award) {
         let others = award.robots.iter().filter(|it| **it != robot).map(|it| Party::Robot(*it));
-        for to in others.chain([Party::Auctioneer(award.auctioneer)]) {
+        for to in others.chain([self.desk(robot)]) {
             self.send(Party::Robot(robot), to, Message::Ack { award: award.id });
         }
     }
@@ -314,6 +330,7 @@ impl World<'_> {
         }
         agent.duty = Duty::Free;
         self.enter(robot, Stage::Safe);
+        self.auctioneer_dies_with(robot);
     }
 
     /// The robot gives its task back, and says so until it is heard.
@@ -330,7 +347,7 @@ impl World<'_> {
     pub(super) fn say_final(&mut self, robot: usize, award: &Award, status: Status) {
         self.robots[robot].finals.push((award.id, status));
         let others = award.robots.iter().filter(|it| **it != robot).map(|it| Party::Robot(*it));
-        for to in others.chain([Party::Auctioneer(award.auctioneer)]) {
+        for to in others.chain([self.desk(robot)]) {
             self.send(Party::Robot(robot), to, Message::Status { award: award.id, status });
         }
     }
@@ -341,10 +358,10 @@ impl World<'_> {
         if self.robots[robot].drives_to().is_some() {
             self.note_spot(robot);
         }
-        if !self.robots[robot].driver.thinks() {
+        if !self.is_there(robot) {
             return;
         }
-        let (me, desk) = (Party::Robot(robot), self.auctioneer.party());
+        let (me, desk) = (Party::Robot(robot), self.desk(robot));
         if let Some(work) = self.robots[robot].work() {
             if self.now + BEAT > work.until_ms && self.planted != Some(Planted::NoLease) {
                 self.give_back(robot, ErrorClass::SemiRecoverable, "it hears nothing any more");
@@ -362,13 +379,15 @@ impl World<'_> {
                 }
             }
         }
+        let fit = self.works(robot);
         let agent = &mut self.robots[robot];
-        let (fit, busy) = (agent.is_fit(), agent.work().is_some());
+        let busy = agent.work().is_some();
         let news = fit != agent.was_fit;
         agent.was_fit = fit;
         // A robot at work has said so already.
         if news || !busy {
-            self.send(me, desk, Message::Alive { busy, fit });
+            let asks = self.misses_auctioneer(robot);
+            self.send(me, desk, Message::Alive { busy, fit, asks });
         }
         if self.planted == Some(Planted::SaysOnce) {
             return;
@@ -376,6 +395,21 @@ impl World<'_> {
         for (award, status) in self.robots[robot].finals.clone() {
             self.send(me, desk, Message::Status { award, status });
         }
+    }
+
+    /// Whether a robot takes tasks: it is part of the team, and can.
+    pub(super) fn works(&self, robot: usize) -> bool {
+        self.scenario.robots[robot].stay.works(self.now) && self.robots[robot].is_fit()
+    }
+
+    /// Whether a robot hears and speaks: who leaves stays until its role is over and that was
+    /// heard; whoever gives tasks out stays where no other takes over.
+    pub(super) fn is_there(&self, robot: usize) -> bool {
+        let (stay, agent) = (self.scenario.robots[robot].stay, &self.robots[robot]);
+        let stuck = self.auctioneer.address == robot && !self.has_successors();
+        let ends = agent.work().is_none() && agent.finals.is_empty() && !stuck;
+        let gone = !stay.works(self.now) && (self.now < stay.joins_ms || ends);
+        agent.driver.thinks() && !gone
     }
 
     /// The drive is cut short: the robot comes to stand.

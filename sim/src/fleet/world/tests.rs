@@ -1,5 +1,7 @@
 //! Reactions of the auctioneer to single messages.
 
+mod conformance;
+
 use super::auctioneer::State;
 use super::{LEASE, World};
 use crate::fleet::Kind;
