@@ -20,8 +20,8 @@ pub(crate) struct TeamArgs {
     /// 5, but at most an eighth of the robots]
     #[arg(long, value_name = "N", value_parser = whole(0, MAX_ROBOTS as u64))]
     pub(crate) failures: Option<u64>,
-    /// The first robot of the fleet gives tasks out, not a desk, and so many times whoever does then
-    /// fails, and the next robot takes over; 0 for never
+    /// The first robot of the fleet gives tasks out, not a desk, and so many times whoever does
+    /// then fails, and the next robot takes over; 0 for never
     #[arg(long, value_name = "N", value_parser = whole(0, MAX_ROBOTS as u64))]
     pub(crate) kills: Option<u64>,
     /// How often the gripper of the first robot of the fleet fails, in percent, with at most one

@@ -1,9 +1,9 @@
 //! Messages between robots and auctioneers (F. Rohrmueller, dissertation, TU München 2011,
 //! Algorithms 3.1 and 3.2; `Release` and the terms of an award are ours).
 
+pub(super) use crate::fleet::award::{Award, AwardId};
 use crate::fleet::bid::{Offer, Share};
-use crate::fleet::world::Ledger;
-use cotama_core::team::RobotSet;
+use crate::fleet::ledger::Ledger;
 use cotama_models::team::ErrorClass;
 use std::rc::Rc;
 
@@ -23,13 +23,6 @@ impl Party {
             Self::Robot(it) | Self::Auctioneer(it) => it,
         }
     }
-}
-
-/// An award: which task, and of which round.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct AwardId {
-    pub(super) task: usize,
-    pub(super) round: u32,
 }
 
 /// How it goes.
@@ -82,18 +75,6 @@ pub(super) enum Message {
     Copy { version: u64, sent_ms: u64, place: u64, ledger: Rc<Ledger> },
     /// The copy has come; until some time after it was sent the robot does not take over.
     Copied { term: u32, version: u64, sent_ms: u64 },
-}
-
-/// The award of a task to a coalition.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Award {
-    pub(super) id: AwardId,
-    pub(super) plan: usize,
-    /// The robot of each role.
-    pub(super) robots: Vec<usize>,
-    /// Largest cost of each role, in ms: beyond it the robot gives the task back.
-    pub(super) pledges_ms: Vec<u64>,
-    pub(super) members: RobotSet,
 }
 
 /// A message under way.

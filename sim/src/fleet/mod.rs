@@ -50,9 +50,11 @@
 //! ```
 
 mod allocate;
+mod award;
 mod bid;
 mod driver;
 pub mod floors;
+mod ledger;
 mod message;
 mod network;
 pub mod record;

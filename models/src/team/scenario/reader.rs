@@ -342,8 +342,8 @@ fn fault(mut fields: Fields<'_>, names: &Names) -> Option<Fault> {
         }
         _ => {
             let message = "a fault is of one robot, or of the object of one task";
-            let help = "write `robot` and `mode` (`mode` alone for the auctioneer), or `shifts`, or \
-                        `turns` and `hides`";
+            let help = "write `robot` and `mode` (`mode` alone for the auctioneer), or `shifts`, \
+                        or `turns` and `hides`";
             fields.report(Diagnostic::new(span, message, "one of these").help(help));
             fields.abandon();
             return None;

@@ -1,10 +1,11 @@
 //! The auctioneer: it announces, awards, watches, and puts up again.
 
-use super::succession::Office;
+use super::office::Office;
 use super::{Planted, World};
 use crate::fleet::allocate::{Allocator, denominator, is_shared};
 use crate::fleet::bid::{Offer, Share};
-use crate::fleet::message::{Award, Kind, Message, Party, Status};
+pub(super) use crate::fleet::ledger::{Ledger, State, Ticket};
+use crate::fleet::message::{Kind, Message, Party, Status};
 use crate::fleet::record::Record;
 use cotama_core::team::RobotSet;
 use cotama_models::team::scenario::Scenario;
@@ -24,43 +25,6 @@ const MOST_VAIN: u32 = 3;
 /// So many tasks are announced at once; the oldest first.
 const ANNOUNCED: usize = 32;
 
-/// The state of a task.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum State {
-    Unknown,
-    Open,
-    Announced,
-    Awarded,
-    Executing,
-    /// The award is withdrawn: members confirm, or its time runs out.
-    Withdrawn,
-    Done,
-    Reported,
-}
-
-/// The auctioneer's knowledge of a task.
-#[derive(Clone, Debug)]
-pub(super) struct Ticket {
-    pub(super) state: State,
-    pub(super) known_since: u64,
-    pub(super) award: Option<Rc<Award>>,
-    pub(super) acked: RobotSet,
-    pub(super) completed: RobotSet,
-    pub(super) gone: RobotSet,
-    /// Until when the award holds for each member, by its place.
-    pub(super) until: Vec<u64>,
-    pub(super) resend: u64,
-    pub(super) deadline: u64,
-    pub(super) awards: u32,
-    pub(super) vain: u32,
-    /// An earlier award of it turned out to be completed.
-    pub(super) finished: bool,
-    /// Why it is to be reported.
-    pub(super) report: Option<&'static str>,
-    /// Awards before this one, with who completed.
-    pub(super) past: Vec<(Rc<Award>, RobotSet)>,
-}
-
 /// An auction under way.
 #[derive(Clone, Debug)]
 struct Auction {
@@ -73,13 +37,6 @@ struct Auction {
     shares: Vec<Share>,
     resend: u64,
     deadline: u64,
-}
-
-/// What an auctioneer knows, and whoever takes over from it has to know.
-#[derive(Clone, Debug)]
-pub(in crate::fleet) struct Ledger {
-    pub(super) round: u32,
-    pub(super) tickets: Vec<Rc<Ticket>>,
 }
 
 /// The state of the auctioneer.

@@ -4,6 +4,7 @@ mod acting;
 mod auctioneer;
 mod awards;
 mod bidding;
+mod office;
 mod robot;
 mod succession;
 #[cfg(test)]
@@ -20,12 +21,11 @@ use crate::fleet::bid::{Object, Whereabouts};
 use crate::kernel::Queue;
 use crate::streams::Streams;
 use auctioneer::Auctioneer;
-pub(super) use auctioneer::Ledger;
 use cotama_models::team::CapabilitySet;
 use cotama_models::team::scenario::Spot;
 use cotama_models::team::scenario::{FaultKind, FaultTime, Row, Scenario, Stage, Trust};
+use office::Follows;
 use robot::{Agent, Duty};
-use succession::Follows;
 
 /// A robot says so often how it is, and looks at its terms so often, in ms.
 pub(super) const BEAT: u64 = 2_000;

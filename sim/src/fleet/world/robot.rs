@@ -1,6 +1,6 @@
 //! A robot of the team: what its broker hears and says.
 
-use super::succession::{Copy, Follows};
+use super::office::{Copy, Follows};
 use super::{BEAT, Planted, World};
 use crate::fleet::bid::Offer;
 use crate::fleet::driver::Driver;

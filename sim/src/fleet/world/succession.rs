@@ -12,19 +12,18 @@
 //! prolonged it. Whoever gave the tasks to the team says which of them have ended, and tells those
 //! that it does not know. Each auctioneer has a *term*; letters of an older term are ignored.
 
-use super::auctioneer::{Auctioneer, Ledger, State};
+use super::auctioneer::Auctioneer;
+use super::office::{Copy, Follows, HOLD, Office, Successor};
 use super::{Event, LEASE, Planted, World};
+use crate::fleet::ledger::{Ledger, State};
 use crate::fleet::message::{Letter, Message, Party};
 use crate::fleet::record::{Fate, Record};
 use cotama_core::team::RobotSet;
 use cotama_models::team::scenario::Seat;
-use std::collections::VecDeque;
 use std::rc::Rc;
 
 /// So many robots have copies.
 const SUCCESSORS: usize = 2;
-/// A successor does not take over for so long after a copy was sent, in ms.
-const HOLD: u64 = 5_000;
 /// A successor that has not answered for so much longer has failed, in ms.
 const GRACE: u64 = 5_000;
 /// A robot asks who gives tasks out after so long a silence, and takes over without a copy, in ms.
@@ -36,69 +35,6 @@ const GIVEN_UP: u64 = 10_000;
 const ROUNDS_OF_A_TERM: u32 = 100_000;
 /// Robots that an auctioneer has not heard of since it took over are told so often, in ms.
 const TOLD: u64 = 2_000;
-
-/// The auctioneer that a robot follows.
-#[derive(Clone, Debug)]
-pub(super) struct Follows {
-    term: u32,
-    address: usize,
-    /// When it last heard of it.
-    heard_ms: u64,
-    copy: Option<Copy>,
-}
-
-impl Follows {
-    pub(super) const fn new(address: usize) -> Self {
-        Self { term: 0, address, heard_ms: 0, copy: None }
-    }
-}
-
-/// A copy of what the auctioneer knew, and the place of the robot in the queue.
-#[derive(Clone, Debug)]
-pub(super) struct Copy {
-    pub(super) version: u64,
-    pub(super) sent_ms: u64,
-    pub(super) place: u64,
-    pub(super) ledger: Rc<Ledger>,
-}
-
-/// What an auctioneer with successors does before it acts.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Office {
-    pub(super) term: u32,
-    /// The version of its knowledge that was last copied, with the copy.
-    version: u64,
-    copy: Option<Rc<Ledger>>,
-    successors: Vec<Successor>,
-    /// Letters that leave when the version is copied.
-    held: VecDeque<(u64, Letter)>,
-    /// The robots that it has heard of.
-    pub(super) met: RobotSet,
-}
-
-#[derive(Clone, Debug)]
-struct Successor {
-    robot: usize,
-    /// The newest version that it has, and when the copy that it last answered was sent.
-    version: u64,
-    sent_ms: u64,
-}
-
-impl Office {
-    /// A robot has a copy.
-    pub(super) fn copied(&mut self, robot: usize, term: u32, version: u64, sent_ms: u64) {
-        let mut all = self.successors.iter_mut();
-        if let Some(it) = all.find(|it| it.robot == robot && term == self.term) {
-            it.version = it.version.max(version);
-            it.sent_ms = it.sent_ms.max(sent_ms);
-        }
-    }
-
-    /// Whether no successor can have taken over.
-    fn may_act(&self, now: u64) -> bool {
-        self.successors.iter().all(|it| now < it.sent_ms + HOLD)
-    }
-}
 
 impl World<'_> {
     pub(super) const fn has_successors(&self) -> bool {
