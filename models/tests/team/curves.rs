@@ -20,7 +20,7 @@ fn growth_is_that_of_the_tables_and_figures() {
     }
 }
 
-/// What is counted has a closed form: the sum of C(n,z) z³ is n²(n+3) 2ⁿ⁻³.
+/// Closed form of the count: the sum of C(n,z) z³ is n²(n+3) 2ⁿ⁻³.
 #[test]
 fn work_of_all_coalitions_is_an_eighth_of_the_bound_and_a_little_more() {
     for n in 3..=12_u64 {
@@ -64,7 +64,7 @@ fn work_of_the_benchmark_is_in_proportion_to_its_times() {
         [(6, 6), (8, 4), (8, 8)].map(|(all, own)| 80 * steps(all, own) / steps(6, 6))
     };
     assert_eq!(in_seconds(&|it| it.all.steps_capable()), [80, 6, 695]);
-    // Those of the busiest robot, each of which has a computer of its own.
+    // Steps of the busiest robot, each of which has a computer of its own.
     assert_eq!(in_seconds(&|it| it.busiest), [80, 10, 445]);
     assert_eq!(in_seconds(&|it| it.all.steps_union), [80, 660, 660]);
 }

@@ -40,7 +40,7 @@ pub struct Observed {
     /// For how long robots of a team worked, all together, in ms.
     #[serde(skip)]
     pub robot_time_ms: u64,
-    /// How often uses of skills failed in a team.
+    /// Number of uses of skills that failed in a team.
     #[serde(skip)]
     pub failed_uses: u64,
     /// The longest way in mm that it went on after the permit to move was gone.

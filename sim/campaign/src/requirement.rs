@@ -61,9 +61,9 @@ pub enum Metric {
     Exposed,
     /// For how long robots of a team worked, all together, in ms.
     RobotTime,
-    /// How often a task of a team was put up again.
+    /// Number of times that a task of a team was put up again.
     PutUpAgain,
-    /// How often the use of a skill failed in a team.
+    /// Number of uses of a skill that failed in a team.
     FailedUses,
 }
 

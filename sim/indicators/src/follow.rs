@@ -14,16 +14,16 @@ const PERSON_M: f64 = 0.25;
 /// A moment of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment<'p> {
-    /// Where the robot is.
+    /// Position of the robot.
     pub pose: Pose,
-    /// Where its odometry has it.
+    /// Position by its odometry.
     pub odometry: Pose,
-    /// Where it believes to be, if it works that out itself.
+    /// Position that it believes in, if it works that out itself.
     pub believed: Option<Pose>,
     /// Corners of its path that are before it, the last of which is its goal; none after the last
     /// goal.
     pub path: &'p [Point],
-    /// Its speed, in metres a second.
+    /// Speed, in metres a second.
     pub speed: f64,
     /// People around it.
     pub people: Vec<Point>,

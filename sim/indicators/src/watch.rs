@@ -1,4 +1,4 @@
-//! What a robot works out of its sensors: where it is, how sure it is of that and of its map.
+//! Estimates that a robot makes by its sensors: where it is, how sure of that and of its map.
 
 use crate::map::Map;
 use crate::no_drive::NoDrive;

@@ -30,9 +30,9 @@ pub(crate) struct Series {
 /// Curves with a common axis.
 pub(crate) struct Chart<'c> {
     pub(crate) title: &'c str,
-    /// What the vertical axis counts.
+    /// Quantity on the vertical axis.
     pub(crate) unit: &'c str,
-    /// What the horizontal axis counts.
+    /// Quantity on the horizontal axis.
     pub(crate) along: &'c str,
     pub(crate) scale: Scale,
     pub(crate) series: Vec<Series>,

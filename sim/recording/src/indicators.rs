@@ -65,7 +65,7 @@ fn moment<'l>(it: &Pose, speed: f64, legs: &'l [Leg]) -> Moment<'l> {
 
 /// The way from one place of a mission to the next.
 struct Leg {
-    /// Where it ends, along the path.
+    /// Its end, along the path.
     end_mm: u64,
     /// Its corners, and how far along the path each is.
     points: Vec<Point>,

@@ -243,7 +243,7 @@ fn indicators_are_a_row_for_each_pose_before_the_goal_from_the_tenth_on() {
     let on_the_way = poses(&PLANE).iter().filter(|it| it.x_mm < 80_000).count();
     assert_eq!(rows.len(), on_the_way - 9);
     assert!(rows.iter().flatten().all(|it| it.is_finite()));
-    // Of 80 m the robot has driven some by then; it comes nearer to its goal, at up to 0.41 m/s.
+    // The robot has driven some of 80 m by then; it comes nearer to its goal, at up to 0.41 m/s.
     let lengths: Vec<_> = rows.iter().map(|it| it[3]).collect();
     assert!(lengths[0] < 80.0 && lengths[0] > 76.0, "{}", lengths[0]);
     assert!(lengths.windows(2).all(|it| it[1] < it[0] + 0.5));

@@ -1,4 +1,4 @@
-//! What an auctioneer knows of its tasks: whoever takes over from it goes on with a copy.
+//! Knowledge of an auctioneer of its tasks: whoever takes over from it goes on with a copy.
 
 use crate::fleet::award::Award;
 use cotama_core::team::RobotSet;
@@ -41,7 +41,7 @@ pub(super) struct Ticket {
     pub(super) past: Vec<(Rc<Award>, RobotSet)>,
 }
 
-/// What an auctioneer knows, and whoever takes over from it has to know.
+/// Knowledge of an auctioneer that whoever takes over from it needs.
 #[derive(Clone, Debug)]
 pub(super) struct Ledger {
     pub(super) round: u32,

@@ -82,7 +82,7 @@ pub(super) enum Message {
 pub(super) struct Letter {
     pub(super) from: Party,
     pub(super) to: Party,
-    /// Of an auctioneer: how often somebody took over before it; of a robot: 0.
+    /// Takeovers before an auctioneer began; 0 of a robot.
     pub(super) term: u32,
     pub(super) message: Message,
 }
@@ -110,7 +110,7 @@ pub enum Kind {
     Status,
     /// An award is withdrawn, or its end was heard.
     Release,
-    /// What an auctioneer knows is copied, and who gives tasks out is said.
+    /// Knowledge of an auctioneer is copied, and who gives tasks out is said.
     Copy,
 }
 

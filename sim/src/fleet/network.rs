@@ -50,7 +50,7 @@ impl Network {
         self.sent
     }
 
-    /// How many copies, their answers, and words about who gives tasks out were sent.
+    /// Number of copies, their answers, and words about who gives tasks out.
     pub(super) const fn copied(&self) -> u64 {
         self.copied
     }

@@ -261,10 +261,10 @@ pub struct Run {
     /// Messages by which robots are ready to take over, and do.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub copies: u64,
-    /// How often a robot took over from an auctioneer that was silent.
+    /// Number of times that a robot took over from an auctioneer that was silent.
     #[serde(default, skip_serializing_if = "is_none")]
     pub takeovers: u32,
-    /// How often it did so while the one before still gave tasks out: never.
+    /// Number of times that the one before still gave tasks out then: none.
     #[serde(default, skip_serializing_if = "is_none")]
     pub rivals: u32,
     /// Messages that got lost.

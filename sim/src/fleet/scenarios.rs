@@ -44,7 +44,7 @@ pub struct FleetOptions {
     pub gripper_fails_permille: u16,
     /// Whether a robot gives tasks out, the first one, and others take over when it fails.
     pub takeover: bool,
-    /// How often whoever gives tasks out then fails.
+    /// Number of times that whoever gives tasks out then fails.
     pub kills: usize,
     /// How tasks are given to robots.
     pub method: Method,

@@ -399,7 +399,7 @@ pub struct Scenario {
     pub method: Method,
     /// The search for coalitions.
     pub formation: Formation,
-    /// Who gives tasks out.
+    /// The party that gives tasks out.
     pub auctioneer: Seat,
     /// How much more than its bid a role may cost, in thousandths.
     pub slack_permille: u32,

@@ -1,6 +1,6 @@
-//! Who gives the tasks of a team out, and when a robot is part of it.
+//! The party that gives the tasks of a team out, and when a robot is part of it.
 
-/// Who gives the tasks of a team out (Rohrmueller, TUM 2011, 3.6.1).
+/// The party that gives the tasks of a team out (Rohrmueller, TUM 2011, 3.6.1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Seat {
     /// A desk of its own, which never fails (strategy i).

@@ -62,7 +62,7 @@ fn robots_that_fail_together_with_both_successors_are_followed_by_one_without_a_
     assert!(run.is_sound(), "{run:?}");
 }
 
-/// Who is followed by nobody takes its tasks with it: they are reported, whatever robots do.
+/// An auctioneer without successors takes its tasks with it: they are reported, whatever robots do.
 #[test]
 fn tasks_of_an_auctioneer_without_successors_are_reported_when_it_fails() {
     let scenario =

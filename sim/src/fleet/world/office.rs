@@ -34,7 +34,7 @@ pub(super) struct Copy {
     pub(super) ledger: Rc<Ledger>,
 }
 
-/// What an auctioneer with successors does before it acts.
+/// Work of an auctioneer with successors before it acts.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Office {
     pub(super) term: u32,

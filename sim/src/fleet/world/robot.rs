@@ -44,7 +44,7 @@ pub(super) struct Agent {
     /// When its next round is.
     pub(super) next_round: Option<u64>,
     was_fit: bool,
-    /// Who gives tasks out, as far as it knows, and its copy of what that one knows.
+    /// The auctioneer, as far as it knows, and its copy of what that one knows.
     pub(super) follows: Follows,
 }
 

@@ -1,4 +1,4 @@
-//! Who gives tasks out next, when nothing more is heard of who does (strategy iii of 3.6.1).
+//! Succession of auctioneers, when nothing more is heard of who does (strategy iii of 3.6.1).
 //!
 //! The auctioneer copies what it knows to two robots, its *successors*, before others hear of it:
 //! letters wait until both have the copy. Each copy is answered, and who answers promises not to
@@ -70,7 +70,7 @@ impl World<'_> {
     pub(super) fn keep_copy(&mut self, robot: usize, copy: Copy) {
         let follows = &mut self.robots[robot].follows;
         let (term, version, sent_ms) = (follows.term, copy.version, copy.sent_ms);
-        // Of copies that were sent in one millisecond the network may bring the newer one first.
+        // The network may bring the newer one of copies sent in one millisecond first.
         if follows.copy.as_ref().is_none_or(|it| (it.sent_ms, it.version) <= (sent_ms, version)) {
             follows.copy = Some(copy);
         }
@@ -216,7 +216,7 @@ impl World<'_> {
         }
         let follows = &mut self.robots[robot].follows;
         let copy = follows.copy.take();
-        // Of two that take over at once the later in the queue has the higher term.
+        // The later in the queue of two that take over at once has the higher term.
         let rank = copy.as_ref().map_or(SUCCESSORS as u64 + 1 + robot as u64, |it| it.place + 1);
         let term = follows.term.saturating_add(rank as u32);
         *follows = Follows { term, heard_ms: now, ..Follows::new(robot) };
@@ -240,7 +240,7 @@ impl World<'_> {
         self.tell(!(1 << robot));
     }
 
-    /// What a new auctioneer makes of a task in its copy.
+    /// Takes a task over from the copy of a new auctioneer.
     fn learn(&mut self, task: usize) {
         let (now, fate) = (self.now, self.run.fates[task]);
         let ticket = self.auctioneer.ticket_mut(task);

@@ -70,12 +70,12 @@ fn phase(state: State) -> &'static str {
     }
 }
 
-/// What is seen of a run.
+/// Observations of a run.
 #[derive(Default)]
 struct Seen {
     tasks: Vec<&'static str>,
     robots: Vec<&'static str>,
-    /// Who leads, and in which term; nobody after its robot failed.
+    /// The leader, and its term; nobody after its robot failed.
     leader: Option<(usize, u32)>,
     vacant: bool,
     /// The members that have acknowledged an award.
