@@ -1,0 +1,449 @@
+//! All that a tree can do when the world answers as it likes.
+//!
+//! A *state* is what nodes, memories and blackboards hold between two ticks; a *question* is a
+//! state within a tick in which the world is asked. Equal questions are one, whatever led to them:
+//! a tick with a thousand ways through it costs what its questions cost. One run begins with a
+//! fresh tree and goes to the first answer of the root other than RUNNING.
+
+mod assume;
+mod cycles;
+mod facts;
+mod keys;
+mod minimal;
+mod pack;
+mod runs;
+mod unwritten;
+
+use crate::machine::{Event, How, Machine, Question, Reply, Status, Stop};
+use crate::tree::{Answer, Tree};
+pub use assume::{Assumption, Assumptions, parse_assumption};
+pub use facts::{Early, Facts, Pair};
+use keys::{Keys, Sequences};
+use pack::Pack;
+pub use runs::{Run, Step};
+use std::collections::{BTreeMap, VecDeque};
+
+/// How far an exploration goes.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// States and questions.
+    pub nodes: usize,
+    /// Bytes of the graph.
+    pub bytes: usize,
+}
+
+/// 30 million states and questions, 2 GiB.
+impl Default for Limits {
+    fn default() -> Limits {
+        Limits { nodes: 30_000_000, bytes: 2 << 30 }
+    }
+}
+
+/// How a run ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum End {
+    /// The root answers: SUCCESS, FAILURE or SKIPPED.
+    Answered(Answer),
+    /// An exception, with the node that the library names.
+    Thrown(Option<usize>),
+}
+
+impl End {
+    /// Writes the end as traces have it.
+    pub fn shown(self, tree: &Tree) -> String {
+        match self {
+            End::Answered(it) => it.letter().to_string(),
+            End::Thrown(None) => "X".to_owned(),
+            End::Thrown(Some(node)) => format!("X@{}", tree.nodes[node].label),
+        }
+    }
+}
+
+/// A point of the graph.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum What {
+    State,
+    /// The node that asks.
+    Asks(usize),
+    End(End),
+}
+
+/// An edge: the reply, what happened, where to.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Edge {
+    pub(crate) target: u32,
+    /// Number of its events, 8 bits to the left of the reply, and whether the tick ends with a
+    /// wake-up.
+    rest: u32,
+}
+
+const WAKES: u32 = 0x80;
+/// Sequences of events that an edge can name.
+const MAX_SEQUENCES: u32 = 1 << 24;
+
+fn code(reply: Option<Reply>) -> u32 {
+    match reply {
+        None => 0,
+        Some(Reply::Leaf(it)) => 1 + it as u32,
+        Some(Reply::Yes) => 5,
+        Some(Reply::No) => 6,
+    }
+}
+
+impl Edge {
+    pub(crate) fn reply(self) -> Option<Reply> {
+        Some(match self.rest & 0x7f {
+            1 => Reply::Leaf(Answer::Success),
+            2 => Reply::Leaf(Answer::Failure),
+            3 => Reply::Leaf(Answer::Running),
+            4 => Reply::Leaf(Answer::Skipped),
+            5 => Reply::Yes,
+            6 => Reply::No,
+            _ => return None,
+        })
+    }
+
+    /// Returns the number of the events.
+    pub(crate) fn events(self) -> u32 {
+        self.rest >> 8
+    }
+
+    pub(crate) fn wakes(self) -> bool {
+        self.rest & WAKES != 0
+    }
+}
+
+/// Something seen first at an edge: ticks so far, source, number of the edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Seen {
+    pub(crate) ticks: u32,
+    pub(crate) node: u32,
+    pub(crate) edge: u32,
+}
+
+/// All behaviours of a tree, as far as the limits allow.
+pub struct Space<'t> {
+    pub(crate) tree: &'t Tree,
+    machine: Machine<'t>,
+    pack: Pack,
+    keys: Keys,
+    pub(crate) sequences: Sequences,
+    what: Vec<u32>,
+    pub(crate) level: Vec<u32>,
+    /// Edge by which a point was found: source, edge.
+    via: Vec<(u32, u32)>,
+    first: Vec<u32>,
+    count: Vec<u8>,
+    pub(crate) edges: Vec<Edge>,
+    assumptions: Assumptions,
+    /// Child and control node that fails at once upon the child's SUCCESS.
+    pub(crate) lost: BTreeMap<(usize, usize), Seen>,
+    /// Two actions that run at the end of a tick.
+    pub(crate) both: BTreeMap<(usize, usize), Seen>,
+    /// An action that starts, and one that still runs.
+    pub(crate) overlap: BTreeMap<(usize, usize), Seen>,
+    /// Why exceptions were thrown, by end, the first time.
+    pub(crate) causes: BTreeMap<End, String>,
+    complete: bool,
+    /// Actions, and which pairs of them were seen, to run and to start.
+    actions: Vec<usize>,
+    met: Vec<[bool; 2]>,
+}
+
+impl<'t> Space<'t> {
+    /// Explores a tree; leaves answer what they may, K only with `skips`.
+    pub fn explore(
+        tree: &'t Tree,
+        skips: bool,
+        assumptions: Assumptions,
+        limits: Limits,
+    ) -> Space<'t> {
+        Space::watching(tree, skips, assumptions, &[], limits)
+    }
+
+    /// Explores a tree and keeps what these nodes answered in the last tick.
+    pub(crate) fn watching(
+        tree: &'t Tree,
+        skips: bool,
+        mut assumptions: Assumptions,
+        watched: &[usize],
+        limits: Limits,
+    ) -> Space<'t> {
+        let mut machine = Machine::new(tree);
+        for &node in watched {
+            machine.watched[node] = Some(machine.cells.len());
+            machine.cells.push(0);
+            machine.layout.widths.push(3);
+        }
+        assumptions.reserve(&mut machine);
+        let pack = Pack::of(tree, &machine.layout);
+        let nodes = tree.nodes.iter().enumerate();
+        let actions: Vec<_> = nodes.filter(|it| it.1.is_action()).map(|it| it.0).collect();
+        let mut space = Space {
+            tree,
+            keys: Keys::new(pack.words),
+            machine,
+            pack,
+            sequences: Sequences::default(),
+            what: Vec::new(),
+            level: Vec::new(),
+            via: Vec::new(),
+            first: Vec::new(),
+            count: Vec::new(),
+            edges: Vec::new(),
+            assumptions,
+            lost: BTreeMap::new(),
+            both: BTreeMap::new(),
+            overlap: BTreeMap::new(),
+            causes: BTreeMap::new(),
+            complete: true,
+            met: vec![[false; 2]; actions.len() * actions.len()],
+            actions,
+        };
+        space.run(skips, limits);
+        space
+    }
+
+    /// Returns whether everything was explored.
+    pub fn is_complete(&self) -> bool {
+        self.complete
+    }
+
+    /// Returns the numbers of states, questions and edges.
+    pub fn size(&self) -> (usize, usize, usize) {
+        let states = self.what.iter().filter(|it| **it == 0).count();
+        let asks = self.what.iter().filter(|it| (1..=self.asks()).contains(*it)).count();
+        (states, asks, self.edges.len())
+    }
+
+    /// Returns the assumptions, with whether each was of use.
+    pub fn assumptions(&self) -> &Assumptions {
+        &self.assumptions
+    }
+
+    fn asks(&self) -> u32 {
+        self.tree.nodes.len() as u32
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.what.len()
+    }
+
+    pub(crate) fn what(&self, point: usize) -> What {
+        let asks = self.asks();
+        match self.what[point] {
+            0 => What::State,
+            it if it <= asks => What::Asks(it as usize - 1),
+            it => What::End(match it - asks - 1 {
+                0 => End::Answered(Answer::Success),
+                1 => End::Answered(Answer::Failure),
+                2 => End::Answered(Answer::Skipped),
+                3 => End::Thrown(None),
+                it => End::Thrown(Some(it as usize - 4)),
+            }),
+        }
+    }
+
+    pub(crate) fn is_state(&self, point: usize) -> bool {
+        self.what[point] == 0
+    }
+
+    /// Returns the edges of a point; there are none where a limit was met.
+    pub(crate) fn out(&self, point: usize) -> std::ops::Range<usize> {
+        let first = self.first[point] as usize;
+        first..first + self.count[point] as usize
+    }
+
+    pub(crate) fn via(&self, point: usize) -> Option<(usize, usize)> {
+        (point > 0).then(|| (self.via[point].0 as usize, self.via[point].1 as usize))
+    }
+
+    /// Returns answers of each node so far, as bits.
+    pub(crate) fn said(&self) -> &[u8] {
+        &self.machine.said
+    }
+
+    /// Returns the machine as it was at a point.
+    pub(crate) fn at(&mut self, point: usize) -> &mut Machine<'t> {
+        self.pack.load(self.keys.get(point), &mut self.machine);
+        &mut self.machine
+    }
+
+    fn run(&mut self, skips: bool, limits: Limits) {
+        self.machine.at = None;
+        self.pack.store(&mut self.machine, 0);
+        self.add(0, (0, 0), 0);
+        let mut waiting = VecDeque::from([0_u32]);
+        let mut work: Vec<u32> = Vec::new();
+        let mut base = Vec::new();
+        while let Some(state) = waiting.pop_front() {
+            work.push(state);
+            while let Some(point) = work.pop() {
+                let full = self.sequences.len() >= MAX_SEQUENCES;
+                if self.len() > limits.nodes || self.bytes() > limits.bytes || full {
+                    self.complete = false;
+                    return;
+                }
+                self.expand(point as usize, skips, &mut base, &mut waiting, &mut work);
+            }
+        }
+    }
+
+    /// Returns the bytes that the graph takes.
+    pub fn bytes(&self) -> usize {
+        self.keys.bytes() + self.len() * 21 + self.edges.len() * size_of::<Edge>()
+    }
+
+    fn expand(
+        &mut self,
+        point: usize,
+        skips: bool,
+        base: &mut Vec<u32>,
+        waiting: &mut VecDeque<u32>,
+        work: &mut Vec<u32>,
+    ) {
+        self.pack.load(self.keys.get(point), &mut self.machine);
+        self.first[point] = self.edges.len() as u32;
+        let Some(question) = self.machine.question() else {
+            for cell in self.machine.watched.iter().flatten() {
+                self.machine.cells[*cell] = 0;
+            }
+            self.machine.wake = false;
+            self.machine.events.clear();
+            let stop = self.machine.tick();
+            return self.arrive(point, None, stop, waiting, work);
+        };
+        base.clone_from(&self.machine.cells);
+        let (entries, wake) = (self.machine.entries.clone(), self.machine.wake);
+        for &reply in question.replies {
+            if reply == Reply::Leaf(Answer::Skipped) && !skips {
+                continue;
+            }
+            if !self.assumptions.allows(question.node, reply, base) {
+                continue;
+            }
+            self.machine.cells.copy_from_slice(base);
+            self.machine.entries.clone_from(&entries);
+            self.machine.entries.resize(self.machine.store.entries.len(), 0);
+            self.machine.wake = wake;
+            self.machine.at = Some(question.node);
+            self.machine.events.clear();
+            if reply == Reply::Leaf(Answer::Success) {
+                self.assumptions.written(question.node, &mut self.machine.cells);
+            }
+            let stop = self.machine.reply(reply);
+            self.arrive(point, Some(reply), stop, waiting, work);
+        }
+    }
+
+    /// Adds the edge to where a tick has stopped, and looks at what is new there.
+    fn arrive(
+        &mut self,
+        from: usize,
+        reply: Option<Reply>,
+        stop: Stop,
+        waiting: &mut VecDeque<u32>,
+        work: &mut Vec<u32>,
+    ) {
+        let asks = self.asks();
+        let ticks = self.level[from] + 1;
+        let (what, level) = match &stop {
+            Stop::Asked(question) => (question.node as u32 + 1, ticks - 1),
+            Stop::Answered(Answer::Running) => (0, ticks),
+            Stop::Answered(Answer::Success) => (asks + 1, ticks),
+            Stop::Answered(Answer::Failure) => (asks + 2, ticks),
+            Stop::Answered(Answer::Skipped) => (asks + 3, ticks),
+            Stop::Thrown(thrown) => (asks + 4 + thrown.node.map_or(0, |it| it as u32 + 1), ticks),
+        };
+        let wakes = what == 0 && self.machine.wake;
+        let seen = Seen { ticks, node: from as u32, edge: self.edges.len() as u32 };
+        for (child, node) in std::mem::take(&mut self.machine.lost) {
+            self.lost.entry((child as usize, node as usize)).or_insert(seen);
+        }
+        if what > asks {
+            self.pack.leave(&mut self.machine);
+        }
+        let wake = if what == 0 || what > asks { false } else { self.machine.wake };
+        self.machine.wake = wake;
+        self.pack.store(&mut self.machine, what);
+        let events = self.sequences.number(&self.machine.events);
+        let via = (from as u32, self.edges.len() as u32);
+        let (target, new) = self.add(what, via, level);
+        let rest = events << 8 | code(reply) | if wakes { WAKES } else { 0 };
+        self.edges.push(Edge { target, rest });
+        self.count[from] += 1;
+        if !new {
+            return;
+        }
+        match stop {
+            Stop::Asked(question) => {
+                work.push(target);
+                self.look_at_question(question, seen);
+            }
+            Stop::Answered(Answer::Running) => {
+                waiting.push_back(target);
+                self.look_at_state(seen);
+            }
+            Stop::Answered(_) => {}
+            Stop::Thrown(thrown) => {
+                self.causes.entry(End::Thrown(thrown.node)).or_insert(thrown.why);
+            }
+        }
+    }
+
+    fn add(&mut self, what: u32, via: (u32, u32), level: u32) -> (u32, bool) {
+        let (point, new) = self.keys.insert(&self.pack.key);
+        if new {
+            self.what.push(what);
+            self.level.push(level);
+            self.via.push(via);
+            self.first.push(0);
+            self.count.push(0);
+        }
+        (point, new)
+    }
+
+    pub(crate) fn running(&self) -> impl Iterator<Item = usize> + '_ {
+        let all = self.actions.iter().copied();
+        all.filter(|it| self.machine.status(*it) == Status::Running)
+    }
+
+    /// Returns whether two actions meet for the first time, by their places in the list.
+    fn meet(&mut self, a: usize, b: usize, how: usize) -> bool {
+        let met = &mut self.met[a * self.actions.len() + b][how];
+        !std::mem::replace(met, true)
+    }
+
+    fn look_at_question(&mut self, question: Question, seen: Seen) {
+        let place = self.actions.binary_search(&question.node);
+        let (How::Starts, Ok(starts)) = (question.how, place) else { return };
+        for at in 0..self.actions.len() {
+            let other = self.actions[at];
+            if other != question.node
+                && self.machine.status(other) == Status::Running
+                && self.meet(starts, at, 1)
+            {
+                self.overlap.insert((question.node, other), seen);
+            }
+        }
+    }
+
+    fn look_at_state(&mut self, seen: Seen) {
+        for one in 0..self.actions.len() {
+            if self.machine.status(self.actions[one]) != Status::Running {
+                continue;
+            }
+            for two in one + 1..self.actions.len() {
+                let running = self.machine.status(self.actions[two]) == Status::Running;
+                if running && self.meet(one, two, 0) {
+                    self.both.insert((self.actions[one], self.actions[two]), seen);
+                }
+            }
+        }
+    }
+
+    /// Returns the events of an edge.
+    pub(crate) fn events(&self, edge: usize) -> &[Event] {
+        self.sequences.get(self.edges[edge].events())
+    }
+}

@@ -1,0 +1,382 @@
+//! What a tick does, as the library does it: the executor.
+//!
+//! A [`Machine`] holds a tree between two ticks, or within one while it waits for an answer: every
+//! choice of the world is a [`Question`], and everything else follows. The ways through a tick are
+//! no calls within calls: a node knows from its cells for which child it waits, so that a machine
+//! can be put aside in the middle of a tick as a few words, and be taken up again.
+
+mod boards;
+mod cells;
+mod controls;
+mod decorators;
+mod halting;
+mod leaves;
+mod nav2;
+mod parallel;
+mod timers;
+mod words;
+
+use crate::tree::{Answer, Kind, Tree};
+pub(crate) use boards::Store;
+pub(crate) use cells::Layout;
+use std::fmt;
+pub use words::{Event, How, Question, Reply, Status, Stop, Thrown};
+
+/// The cause of an exception, before a node is named.
+pub(crate) struct Fault(pub(crate) String);
+
+pub(crate) fn fault<T>(why: impl fmt::Display) -> Result<T, Fault> {
+    Err(Fault(why.to_string()))
+}
+
+fn idle() -> Fault {
+    Fault("a condition was skipped, and the node answers IDLE".to_owned())
+}
+
+/// What a node does next.
+pub(crate) enum Move {
+    /// Ticks the child at this place.
+    Child(usize),
+    /// Answers its parent.
+    Answer(Answer),
+    /// Asks the world.
+    Ask,
+    /// Answers IDLE, which throws in the parent.
+    Idle,
+}
+
+/// Where a tick goes on.
+enum Cursor {
+    Enter(usize),
+    Leave(usize, Answer),
+    /// At the timers after this one: date, node.
+    Timers(Option<(i64, usize)>),
+}
+
+/// A tree with everything that it remembers.
+pub struct Machine<'t> {
+    pub(crate) tree: &'t Tree,
+    pub(crate) layout: Layout,
+    pub(crate) cells: Vec<u32>,
+    /// Value of each entry, by the numbers of the store.
+    pub(crate) entries: Vec<u32>,
+    pub(crate) store: Store,
+    /// Dates of timers, in ms.
+    dates: Vec<i64>,
+    /// The date, where timers go by the clock.
+    clock: Option<i64>,
+    pub(crate) now: i64,
+    /// The node that asks.
+    pub(crate) at: Option<usize>,
+    /// A wake-up is pending.
+    pub(crate) wake: bool,
+    pub(crate) events: Vec<Event>,
+    /// Answers of each node so far, as bits.
+    pub(crate) said: Vec<u8>,
+    /// Child and control node that failed at once upon the child's SUCCESS, the latest.
+    pub(crate) lost: Vec<(u32, u32)>,
+    /// For each node, the cell that notes its answer of this tick, where this is watched.
+    pub(crate) watched: Vec<Option<usize>>,
+}
+
+impl<'t> Machine<'t> {
+    /// Makes a tree that was never ticked; timers are questions.
+    pub fn new(tree: &'t Tree) -> Machine<'t> {
+        let layout = Layout::of(tree);
+        let mut machine = Machine {
+            tree,
+            cells: vec![0; layout.widths.len()],
+            layout,
+            entries: Vec::new(),
+            store: Store::of(tree),
+            dates: vec![0; tree.nodes.len()],
+            clock: None,
+            now: 0,
+            at: None,
+            wake: false,
+            events: Vec::new(),
+            said: vec![0; tree.nodes.len()],
+            lost: Vec::new(),
+            watched: vec![None; tree.nodes.len()],
+        };
+        for (node, it) in tree.nodes.iter().enumerate() {
+            if matches!(it.kind, Kind::PathLongerOnApproach | Kind::SingleTrigger) {
+                machine.set(node, 0, 1);
+            }
+        }
+        machine.fill();
+        machine
+    }
+
+    /// Makes a tree whose timers go by a clock that begins at 0 ms.
+    pub fn with_clock(tree: &'t Tree) -> Machine<'t> {
+        Machine { clock: Some(0), ..Machine::new(tree) }
+    }
+
+    /// Lets time pass.
+    pub fn wait(&mut self, ms: i64) {
+        if let Some(clock) = &mut self.clock {
+            *clock += ms;
+            self.now = *clock;
+        }
+    }
+
+    /// Returns the status of a node.
+    #[inline]
+    pub fn status(&self, node: usize) -> Status {
+        Status::of_code(self.cells[node])
+    }
+
+    /// Returns what happened since the last call.
+    pub fn take_events(&mut self) -> Vec<Event> {
+        std::mem::take(&mut self.events)
+    }
+
+    /// Returns and forgets whether a wake-up is pending.
+    pub fn take_wake(&mut self) -> bool {
+        std::mem::take(&mut self.wake)
+    }
+
+    #[inline]
+    pub(crate) fn put_status(&mut self, node: usize, status: Status) {
+        self.cells[node] = status as u32;
+    }
+
+    #[inline]
+    pub(crate) fn is_active(&self, node: usize) -> bool {
+        self.cells[node] != 0
+    }
+
+    /// Returns the n-th cell of a node's memory and of what it keeps within a tick.
+    #[inline]
+    pub(crate) fn get(&self, node: usize, cell: usize) -> u32 {
+        self.cells[self.layout.start[node] + cell]
+    }
+
+    #[inline]
+    pub(crate) fn set(&mut self, node: usize, cell: usize, value: u32) {
+        self.cells[self.layout.start[node] + cell] = value;
+    }
+
+    #[inline]
+    pub(crate) fn child(&self, node: usize, position: usize) -> usize {
+        self.tree.nodes[node].children[position]
+    }
+
+    #[inline]
+    pub(crate) fn children(&self, node: usize) -> &'t [usize] {
+        &self.tree.nodes[node].children
+    }
+
+    /// Ticks the root once, up to the first question.
+    pub fn tick(&mut self) -> Stop {
+        self.run(Cursor::Timers(None))
+    }
+
+    /// Gives the reply to the question at which the tick stopped.
+    ///
+    /// # Panics
+    ///
+    /// Panics if the tree does not ask, or does not allow this reply.
+    pub fn reply(&mut self, reply: Reply) -> Stop {
+        let question = self.question().expect("a tree that asks");
+        assert!(question.replies.contains(&reply), "a reply that is allowed");
+        let node = question.node;
+        self.at = None;
+        self.events.push(Event::Asked(node as u32, question.how, reply));
+        match (&self.tree.nodes[node].kind, reply) {
+            (Kind::Delay { .. } | Kind::Timeout { .. } | Kind::Sleep { .. }, _) => {
+                let place = (self.date(node), node);
+                if reply == Reply::Yes
+                    && let Err(fault) = self.fire(node)
+                {
+                    return Stop::Thrown(Thrown { node: None, why: fault.0 });
+                }
+                self.run(Cursor::Timers(Some(place)))
+            }
+            (_, Reply::Leaf(answer)) => self.run(Cursor::Leave(node, answer)),
+            (_, Reply::Yes | Reply::No) => {
+                let step = decorators::looked(self, node, reply == Reply::Yes);
+                self.step(node, &step)
+            }
+        }
+    }
+
+    /// Returns the question at which the tick stopped.
+    pub fn question(&self) -> Option<Question> {
+        let node = self.at?;
+        Some(match self.tree.nodes[node].kind {
+            Kind::Leaf(kind) => leaves::question(self, node, kind),
+            _ => Question { node, how: How::Looks, replies: &[Reply::Yes, Reply::No] },
+        })
+    }
+
+    fn step(&mut self, node: usize, step: &Move) -> Stop {
+        match *step {
+            Move::Child(at) => self.run(Cursor::Enter(self.child(node, at))),
+            Move::Answer(answer) => self.run(Cursor::Leave(node, answer)),
+            Move::Ask | Move::Idle => self.run(Cursor::Enter(node)),
+        }
+    }
+
+    fn run(&mut self, mut cursor: Cursor) -> Stop {
+        let thrown = |node, fault: Fault| Stop::Thrown(Thrown { node, why: fault.0 });
+        loop {
+            cursor = match cursor {
+                Cursor::Timers(after) => match self.timers(after) {
+                    Ok(Some(node)) => return self.ask(node),
+                    Ok(None) => Cursor::Enter(0),
+                    Err(fault) => return thrown(None, fault),
+                },
+                Cursor::Enter(node) => {
+                    let parent = self.tree.nodes[node].parent;
+                    match self.guarded(node) {
+                        Err(fault) => return thrown(parent, fault),
+                        Ok(Some(answer)) => Cursor::Leave(node, answer),
+                        Ok(None) => match enter(self, node) {
+                            Err(fault) => return thrown(Some(node), fault),
+                            Ok(Move::Ask) => return self.ask(node),
+                            Ok(Move::Child(at)) => Cursor::Enter(self.child(node, at)),
+                            Ok(Move::Answer(answer)) => Cursor::Leave(node, answer),
+                            Ok(Move::Idle) => return thrown(parent, idle()),
+                        },
+                    }
+                }
+                Cursor::Leave(node, answer) => {
+                    let parent = self.tree.nodes[node].parent;
+                    if let Err(fault) = self.leave(node, answer) {
+                        return thrown(parent, fault);
+                    }
+                    let Some(parent) = parent else {
+                        if answer.is_done() {
+                            self.put_status(0, Status::Idle);
+                        }
+                        return Stop::Answered(answer);
+                    };
+                    let position = self.tree.nodes[node].position;
+                    match answered(self, parent, position, answer) {
+                        Err(fault) => return thrown(Some(parent), fault),
+                        Ok(Move::Ask) => return self.ask(parent),
+                        Ok(Move::Idle) => {
+                            return thrown(self.tree.nodes[parent].parent, idle());
+                        }
+                        Ok(Move::Child(at)) => Cursor::Enter(self.child(parent, at)),
+                        Ok(Move::Answer(it)) => {
+                            if it == Answer::Failure
+                                && answer == Answer::Success
+                                && self.tree.nodes[parent].family
+                                    == crate::signature::Family::Control
+                            {
+                                self.lost.push((node as u32, parent as u32));
+                            }
+                            Cursor::Leave(parent, it)
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    fn ask(&mut self, node: usize) -> Stop {
+        self.at = Some(node);
+        match self.question() {
+            Some(question) => Stop::Asked(question),
+            None => Stop::Thrown(Thrown { node: None, why: "no question".to_owned() }),
+        }
+    }
+
+    /// Looks at the guards; returns an answer if the node is not to be ticked.
+    fn guarded(&mut self, node: usize) -> Result<Option<Answer>, Fault> {
+        let guards = &self.tree.nodes[node].guards;
+        let status = self.status(node);
+        if status == Status::Idle {
+            let all = [
+                (&guards.failure_if, Answer::Failure),
+                (&guards.success_if, Answer::Success),
+                (&guards.skip_if, Answer::Skipped),
+            ];
+            for (script, answer) in all {
+                if let Some(script) = script
+                    && self.holds(node, script)?
+                {
+                    return Ok(Some(answer));
+                }
+            }
+        }
+        let Some(script) = &guards.while_ else { return Ok(None) };
+        if !matches!(status, Status::Idle | Status::Running) || self.holds(node, script)? {
+            return Ok(None);
+        }
+        if status == Status::Running {
+            self.halt(node)?;
+        }
+        Ok(Some(Answer::Skipped))
+    }
+
+    /// Takes a node's answer: scripts afterwards, status, what it kept within the tick.
+    fn leave(&mut self, node: usize, answer: Answer) -> Result<(), Fault> {
+        let it = &self.tree.nodes[node];
+        let status = match answer {
+            Answer::Success => Some(Status::Success),
+            Answer::Failure => Some(Status::Failure),
+            Answer::Running => Some(Status::Running),
+            Answer::Skipped => None,
+        };
+        if answer.is_done() {
+            let first = match answer {
+                Answer::Success => &it.afterwards.on_success,
+                _ => &it.afterwards.on_failure,
+            };
+            for script in [first, &it.afterwards.post].into_iter().flatten() {
+                self.script(node, script)?;
+            }
+        }
+        self.said[node] |= 1 << answer as u8;
+        if let Some(cell) = self.watched[node] {
+            self.cells[cell] = answer as u32 + 1;
+        }
+        if let Some(status) = status {
+            self.put_status(node, status);
+        }
+        if it.family == crate::signature::Family::Decorator {
+            let child = it.children[0];
+            if matches!(self.status(child), Status::Success | Status::Failure) {
+                self.put_status(child, Status::Idle);
+            }
+        }
+        let (from, to) = self.layout.transient[node];
+        self.cells[from..to].fill(0);
+        Ok(())
+    }
+}
+
+/// Begins the tick of a node.
+fn enter(m: &mut Machine, node: usize) -> Result<Move, Fault> {
+    let tree = m.tree;
+    match &tree.nodes[node].kind {
+        Kind::Leaf(kind) => Ok(leaves::enter(m, node, *kind)),
+        kind => match controls::enter(m, node, kind) {
+            Some(step) => step,
+            None => match nav2::enter(m, node, kind) {
+                Some(step) => step,
+                None => match decorators::enter(m, node, kind) {
+                    Some(step) => step,
+                    None => leaves::built_in(m, node, kind),
+                },
+            },
+        },
+    }
+}
+
+/// Takes the answer of a child.
+fn answered(m: &mut Machine, node: usize, at: usize, answer: Answer) -> Result<Move, Fault> {
+    let tree = m.tree;
+    let kind = &tree.nodes[node].kind;
+    match controls::answered(m, node, kind, at, answer) {
+        Some(step) => step,
+        None => match nav2::answered(m, node, kind, at, answer) {
+            Some(step) => step,
+            None => decorators::answered(m, node, kind, answer),
+        },
+    }
+}

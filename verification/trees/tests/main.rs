@@ -1,0 +1,9 @@
+//! Trees against traces of the library and a second program; the folder comes from COTAMA_BT_DIR.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::pedantic)]
+
+mod broken;
+mod facts;
+mod folder;
+mod mutants;
+mod traces;
