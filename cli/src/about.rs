@@ -94,7 +94,7 @@ fn named(program: clap::Command) -> clap::Command {
         };
         program.mut_subcommand(command, |it| it.mut_args(valued))
     };
-    let commands = ["export", "check", "estimate", "statespace", "simulate", "conform"];
+    let commands = ["export", "check", "estimate", "statespace", "simulate", "play", "conform"];
     let program = commands.iter().fold(program, |it, command| of(command, "model", &models, it));
     let program = of("models", "name", &models, program);
     let teams = Team::ALL.iter().map(|it| it.0.name());

@@ -32,7 +32,7 @@ pub(crate) use mission::{
     AllocateArgs, AllocatorName, Fidelity, Lost, Objective, OperatorName, PlanArgs, Planning,
     ReplayArgs, RunArgs, STEPS,
 };
-pub(crate) use model::{DrawnAs, ExportArgs, Format, ModelsArgs, SimulateArgs};
+pub(crate) use model::{DrawnAs, ExportArgs, Format, ModelsArgs, PlayArgs, SimulateArgs};
 pub(crate) use new::{NewArgs, NewKind};
 pub(crate) use recording::RecordingArgs;
 pub(crate) use risk::{
@@ -234,6 +234,14 @@ Examples:
     /// place as soon as something waits.
     #[command(after_long_help = model::SIMULATE_EXAMPLES)]
     Simulate(SimulateArgs),
+    /// Writes a page in which a net, a system or a robot's supervisors are played
+    ///
+    /// One file that needs no other and no server: in it is the player of this program, compiled to
+    /// WebAssembly, so a run in the page is a run of `cotama simulate`. Drawings are live; what is
+    /// refused says why; runs go back, into links and into files, and runs that `cotama check
+    /// --json` found can be opened.
+    #[command(after_long_help = model::PLAY_EXAMPLES)]
+    Play(PlayArgs),
     /// Says whether a recorded run is a run of a model, and where it departs
     ///
     /// What was recorded is told to the model again, at the same dates: a log of a real robot is

@@ -39,6 +39,7 @@ mod names;
 mod new;
 mod output;
 mod plan;
+mod play;
 mod progress;
 #[cfg(any(test, feature = "fuzz"))]
 pub mod readers;
@@ -167,6 +168,7 @@ fn ended(command: Command, screen: &Screen) -> Result<Exit, Failure> {
         Command::Statespace(args) => statespace::statespace(&args, screen),
         Command::Verify(args) => verify::verify(&args, screen),
         Command::Simulate(args) => simulate::simulate(&args, screen),
+        Command::Play(args) => play::play(&args, screen),
         Command::Conform(args) => conform::conform(&args, screen),
         Command::Floor(args) => floor::floor(&args, screen),
         Command::Fmeca(args) => fmeca::fmeca(&args, screen),

@@ -63,7 +63,7 @@ mod tests {
     use crate::answers::explain::bids::BidsAnswer;
     use crate::answers::floor::FloorAnswer;
     use crate::answers::fmeca::{FmecaAnswer, MeasureAnswer};
-    use crate::answers::model::{ModelsAnswer, SimulateAnswer};
+    use crate::answers::model::{ModelsAnswer, PlayAnswer, SimulateAnswer};
     use crate::answers::new::NewAnswer;
     use crate::answers::risk::{
         CalibrateAnswer, ChooseAnswer, CoherenceAnswer, DiscretiseAnswer, InferAnswer, LearnAnswer,
@@ -114,6 +114,7 @@ mod tests {
             ("replay", of::<ReplayAnswer>()),
             ("models", of::<ModelsAnswer>()),
             ("simulate", of::<SimulateAnswer>()),
+            ("play", of::<PlayAnswer>()),
             ("check", of::<CheckAnswer>()),
             ("statespace", of::<StatespaceAnswer>()),
             ("estimate", of::<EstimateAnswer>()),

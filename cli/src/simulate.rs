@@ -1,8 +1,7 @@
 //! `cotama simulate`: plays a net or a system, with a list of events or by hand.
 
+mod answer;
 mod interactive;
-mod refusal;
-mod session;
 pub(crate) mod step;
 
 use crate::answers::model::SimulateAnswer;
@@ -15,9 +14,8 @@ use crate::render;
 use cotama_core::text;
 use cotama_core::units::Millis;
 use cotama_verification::conform::SCHEMA;
-use cotama_verification::play::{Fired, NotPlayed, Numbered};
+use cotama_verification::play::{Endless, Fired, NotPlayed, Numbered, Session};
 use serde_json::{Value, json};
-use session::{Endless, Session};
 use std::io::IsTerminal;
 use step::{Step, Words};
 
@@ -90,7 +88,7 @@ fn said(
     let net = session.net();
     let begun = session.begin(fired);
     let played = begun.and_then(|()| play(&mut session, steps));
-    let answer = session.answer(by_name, played.is_ok(), 0);
+    let answer = answer::answer(&session, by_name, played.is_ok(), 0);
     if let Some(path) = &args.trace {
         let lines = text::json(&recording(&answer)).to_string();
         output::file(path, lines.as_bytes())?;
@@ -123,7 +121,7 @@ fn recording(answer: &SimulateAnswer) -> String {
 }
 
 fn play(session: &mut Session<'_, '_>, steps: &[Step]) -> Result<(), Endless> {
-    steps.iter().try_for_each(|step| session.apply(step))
+    steps.iter().try_for_each(|step| session.apply(step.at, &step.events))
 }
 
 fn ended(answer: &SimulateAnswer, strict: bool) -> Exit {

@@ -2,7 +2,7 @@
 
 use crate::common::Folder;
 
-pub(crate) const COMMANDS: [&str; 21] = [
+pub(crate) const COMMANDS: [&str; 22] = [
     "list",
     "plan",
     "run",
@@ -12,6 +12,7 @@ pub(crate) const COMMANDS: [&str; 21] = [
     "models",
     "export",
     "simulate",
+    "play",
     "check",
     "statespace",
     "estimate",

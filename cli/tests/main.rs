@@ -42,6 +42,7 @@ mod own_fmeca;
 mod own_supervisor;
 mod places;
 mod plan;
+mod play;
 mod questions;
 mod recording;
 mod reference;

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
 
-const COMMANDS: [&str; 31] = [
+const COMMANDS: [&str; 32] = [
     "list",
     "explain-team",
     "plan",
@@ -20,6 +20,7 @@ const COMMANDS: [&str; 31] = [
     "replay",
     "models",
     "simulate",
+    "play",
     "check",
     "statespace",
     "estimate",

@@ -28,7 +28,6 @@
 #![cfg_attr(kani, allow(clippy::pedantic))]
 
 pub mod conform;
-pub mod play;
 #[cfg(kani)]
 pub mod proofs;
 
@@ -42,6 +41,8 @@ pub use cotama_diagnosis as diagnosis;
 pub use cotama_drawing as drawing;
 #[doc(inline)]
 pub use cotama_formats::{self as formats, pnml, tina};
+#[doc(inline)]
+pub use cotama_play as play;
 #[doc(inline)]
 pub use cotama_property::{self as property, limits, pt};
 

@@ -144,6 +144,18 @@ pub(crate) struct SimulateAnswer {
     pub(crate) deadline: Option<DeadlineRow>,
 }
 
+/// The answer of `cotama play`.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct PlayAnswer {
+    #[cfg_attr(test, schemars(extend("const" = "cotama/play/1")))]
+    pub(crate) schema: &'static str,
+    /// The page.
+    pub(crate) file: String,
+    /// Its size.
+    pub(crate) bytes: u64,
+}
+
 /// Something that happened: an event with what settled after it, what fired by itself, or a round.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(JsonSchema))]

@@ -46,6 +46,13 @@ Examples:
   $ cotama simulate delivery gs.mission_received ls.Planning_done
   $ cotama simulate door EndOpen --strict   # nothing opens: exit code 1";
 
+/// Examples of `cotama play`.
+pub(crate) const PLAY_EXAMPLES: &str = "\
+Examples:
+  $ cotama play door
+  $ cotama play delivery --output delivery.html
+  $ cotama play philosophers:5 --json";
+
 /// A model.
 #[derive(Args, Debug)]
 pub(crate) struct ModelArg {
@@ -104,6 +111,17 @@ pub(crate) struct SimulateArgs {
     /// Asks what to do and shows it, step by step, even if no terminal is there
     #[arg(long, short, conflicts_with_all = ["events", "json", "strict"])]
     pub(crate) interactive: bool,
+    #[command(flatten)]
+    pub(crate) json: Json,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct PlayArgs {
+    #[command(flatten)]
+    pub(crate) model: ModelArg,
+    /// The page to write [default: MODEL.html in this folder]
+    #[arg(long, short, value_name = "FILE.html")]
+    pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) json: Json,
 }

@@ -33,6 +33,7 @@ pub(crate) enum SchemaName {
     Replay,
     Models,
     Simulate,
+    Play,
     Check,
     Statespace,
     Estimate,

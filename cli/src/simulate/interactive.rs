@@ -1,6 +1,5 @@
 //! Playing by hand: what can be done is shown, and what is typed is done.
 
-use super::session::{Endless, MOST_FIRINGS, Session};
 use super::step::Words;
 use crate::exit::{Exit, Failure};
 use crate::output::Screen;
@@ -8,6 +7,7 @@ use crate::render::simulate as render;
 use crate::render::style::{FAINT, NAME, NOTICE};
 use crate::render::visible;
 use cotama_core::net::Net;
+use cotama_verification::play::{Endless, MOST_FIRINGS, Session};
 use std::io::{BufRead, IsTerminal, Read};
 
 /// The most bytes of a line.
@@ -40,11 +40,11 @@ pub(super) fn run(
     let mut moved = true;
     loop {
         if moved {
-            let answer = session.answer(by_name, true, shown);
+            let answer = super::answer::answer(&session, by_name, true, shown);
             screen.print(&render::position(&answer, net, screen.width()))?;
         }
         screen.print("> ")?;
-        (moved, shown) = (false, session.recorded());
+        (moved, shown) = (false, session.records().len());
         let Some(line) = read(&mut input)? else {
             screen.print("\n")?;
             return Ok(Exit::Success);
@@ -57,13 +57,13 @@ pub(super) fn run(
             "quit" | "exit" => return Ok(Exit::Success),
             "help" => screen.print(&format!("{FAINT}{HELP}{FAINT:#}"))?,
             "marking" => {
-                let answer = session.answer(by_name, true, shown);
+                let answer = super::answer::answer(&session, by_name, true, shown);
                 screen.print(&render::whole_marking(&answer, screen.width()))?;
             }
             "back" => match history.pop() {
                 Some(saved) => {
                     session.restore(saved);
-                    (moved, shown) = (true, session.recorded());
+                    (moved, shown) = (true, session.records().len());
                 }
                 None => screen.print(&format!("{NOTICE}this is the start{NOTICE:#}\n"))?,
             },
@@ -71,7 +71,7 @@ pub(super) fn run(
                 Err(failure) => screen.explain(&failure),
                 Ok(step) => {
                     let saved = session.save();
-                    if session.apply(&step) == Err(Endless) {
+                    if session.apply(step.at, &step.events) == Err(Endless) {
                         session.restore(saved);
                         endless(screen)?;
                     } else {

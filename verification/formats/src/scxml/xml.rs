@@ -1,10 +1,10 @@
 //! A state machine as XML text.
 
 use super::machine::{Machine, Move, Timing};
-use crate::condition;
 use crate::identifier::identifiers;
 use cotama_core::net::{Ignored, Place, PlaceId, Role, Transition, Within};
 use cotama_core::text::marked;
+use cotama_play::condition;
 use std::cmp::Reverse;
 use std::fmt::Write as _;
 

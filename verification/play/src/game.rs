@@ -1,19 +1,25 @@
 //! A player of any system, whatever its size.
 
 use super::numbered::{Numbered, Seat};
+use alloc::borrow::ToOwned;
+use alloc::boxed::Box;
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::fmt;
 use cotama_core::net::{EventId, NetError, Place, PlaceId, TransitionId};
 use cotama_core::player::{
     Checked, Firing, Loaded, Outcome, Packed, Player, Stepped, Why, clocks, words,
 };
+use cotama_core::system::owned::OwnedSystem;
 use cotama_core::system::{System, SystemError};
 use cotama_core::units::Millis;
-use std::fmt;
 
 /// The largest sizes of the players, of which there are few, as each has code of its own: machine
 /// words of a marking, transitions with an interval, and what waits in mailboxes. Nothing is
 /// carried along, so slots take no memory.
 const MOST_WORDS: usize = 256;
 const MOST_CLOCKS: usize = 256;
+const SMALL: usize = 16;
 const SLOTS: usize = u16::MAX as usize;
 
 /// A transition that fired, by its number on the [`Numbered`].
@@ -156,7 +162,10 @@ impl<'c, const W: usize, const C: usize> Game<'c> for Playing<'c, W, C> {
         let used = marking.iter().rposition(|&it| it != 0).map_or(0, |it| it + 1);
         let running = clocks.iter().zip(0_u64..).filter(|it| *it.0 != 0);
         let running = running.map(|(&elapsed, at)| at << 32 | u64::from(elapsed));
-        std::iter::once(used as u64).chain(marking[..used].iter().copied()).chain(running).collect()
+        core::iter::once(used as u64)
+            .chain(marking[..used].iter().copied())
+            .chain(running)
+            .collect()
     }
 }
 
@@ -169,12 +178,71 @@ impl Numbered {
     /// # Errors
     /// Why it cannot be played.
     pub fn play(&self, start: Millis, then: &mut Then<'_>) -> Result<(), NotPlayed> {
-        self.with_system(|system| match (words(system), clocks(system)) {
-            // Each size is a program of its own to compile: a small one and the largest do.
-            (Some(0..=16), 0..=16) => self.with::<16, 16>(system, start, then),
-            (Some(0..=MOST_WORDS), 0..=MOST_CLOCKS) => {
-                self.with::<MOST_WORDS, MOST_CLOCKS>(system, start, then)
+        self.with_system(|system| match Size::of(system)? {
+            Size::Small => {
+                let packed = packed::<SMALL, SMALL>(system)?;
+                let (game, fired) = self.begin(packed.load(system), start);
+                then(game, fired);
+                Ok(())
             }
+            Size::Large => {
+                let packed = packed::<MOST_WORDS, MOST_CLOCKS>(system)?;
+                let (game, fired) = self.begin(packed.load(system), start);
+                then(game, fired);
+                Ok(())
+            }
+        })
+    }
+
+    /// Plays it from its start, at this time, for as long as the program runs: its memory is never
+    /// given back. Returns the numbers, the game, and the transitions that fired at its start.
+    ///
+    /// # Errors
+    /// Why it cannot be played.
+    pub fn leak(self, start: Millis) -> Result<Leaked, NotPlayed> {
+        let it: &'static Self = Box::leak(Box::new(self));
+        let system: &'static _ =
+            Box::leak(Box::new(it.with_system(|it| OwnedSystem::from(it)).leak()));
+        let (game, fired) = match Size::of(system)? {
+            Size::Small => {
+                let packed: &'static _ = Box::leak(Box::new(packed::<SMALL, SMALL>(system)?));
+                it.begin(packed.load(system), start)
+            }
+            Size::Large => {
+                let packed = packed::<MOST_WORDS, MOST_CLOCKS>(system)?;
+                let packed: &'static _ = Box::leak(Box::new(packed));
+                it.begin(packed.load(system), start)
+            }
+        };
+        Ok((it, game, fired))
+    }
+
+    fn begin<'c, const W: usize, const C: usize>(
+        &'c self,
+        program: Loaded<'c, W, C, SLOTS>,
+        start: Millis,
+    ) -> (Box<dyn Game<'c> + 'c>, Vec<Fired>) {
+        let mut fired = Vec::new();
+        let mut observer = |it: &Seen<'_, 'c, W, C>| fired.push(told(self, it));
+        let player = Player::<_, W, C, SLOTS>::start(Checked(program), start, &mut observer);
+        (Box::new(Playing { player, numbered: self }), fired)
+    }
+}
+
+/// A game that lasts as long as the program.
+pub type Leaked = (&'static Numbered, Box<dyn Game<'static>>, Vec<Fired>);
+
+/// The player that is large enough: each size is a program of its own to compile, so there are two.
+enum Size {
+    Small,
+    Large,
+}
+
+impl Size {
+    fn of(system: &System<'_>) -> Result<Self, NotPlayed> {
+        match (words(system), clocks(system)) {
+            (Some(0..=SMALL), 0..=SMALL) => Ok(Self::Small),
+            (Some(0..=MOST_WORDS), 0..=MOST_CLOCKS) => Ok(Self::Large),
             (Some(0..=MOST_WORDS), clocks) => Err(NotPlayed::Clocks(clocks)),
             (Some(words), _) => {
                 let mut places = system.components.iter().flat_map(|it| it.net.places);
@@ -182,23 +250,14 @@ impl Numbered {
                 Err(NotPlayed::Words { words, unbounded })
             }
             (None, _) => Err(NotPlayed::Parts),
-        })
+        }
     }
+}
 
-    fn with<const W: usize, const C: usize>(
-        &self,
-        system: &System<'_>,
-        start: Millis,
-        then: &mut Then<'_>,
-    ) -> Result<(), NotPlayed> {
-        let packed = Packed::<W, C, SLOTS>::of(system).map_err(|it| refused(system, it))?;
-        let program = Checked(packed.load(system));
-        let mut fired = Vec::new();
-        let mut observer = |it: &Seen<'_, '_, W, C>| fired.push(told(self, it));
-        let player = Player::<_, W, C, SLOTS>::start(program, start, &mut observer);
-        then(Box::new(Playing { player, numbered: self }), fired);
-        Ok(())
-    }
+fn packed<const W: usize, const C: usize>(
+    system: &System<'_>,
+) -> Result<Packed<W, C, SLOTS>, NotPlayed> {
+    Packed::of(system).map_err(|it| refused(system, it))
 }
 
 /// Why a net or a system cannot be played.
@@ -262,7 +321,7 @@ impl fmt::Display for NotPlayed {
     }
 }
 
-impl std::error::Error for NotPlayed {}
+impl core::error::Error for NotPlayed {}
 
 impl NotPlayed {
     /// Returns the remedy, where it is known.

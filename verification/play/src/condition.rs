@@ -1,5 +1,8 @@
 //! Conditions of arcs in words.
 
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::String;
 use cotama_core::net::{Arc, Net, Place, PlaceId, Role};
 
 /// Returns the condition of an arc, as a guard.

@@ -9,7 +9,7 @@
 //! use cotama_core::net::EventId;
 //! use cotama_core::system::{Component, System};
 //! use cotama_core::units::Millis;
-//! use cotama_verification::play::Numbered;
+//! use cotama_play::Numbered;
 //!
 //! net! {
 //!     /// Goes out by itself.
@@ -32,11 +32,23 @@
 //! assert_eq!(names, ["on", "off"]);
 //! ```
 
+#![no_std]
+#![cfg_attr(kani, allow(clippy::pedantic))]
+
+extern crate alloc;
+#[cfg(test)]
+extern crate std;
+
+mod condition;
 mod game;
 mod needs;
 mod numbered;
+mod refusal;
+mod session;
 
-pub use cotama_formats::condition;
-pub use game::{Fired, Game, NotPlayed, Unused};
+pub use condition::condition;
+pub use game::{Fired, Game, Leaked, NotPlayed, Unused};
 pub use needs::{ignored_in, not_enabled, overflowing};
 pub use numbered::Numbered;
+pub use refusal::{Reason, Refusal};
+pub use session::{Endless, MOST_FIRINGS, Record, Saved, Session};

@@ -1,10 +1,15 @@
 //! A system as one list of places, of events, of outputs and of transitions.
 
+use alloc::borrow::ToOwned;
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec;
+use alloc::vec::Vec;
 use cotama_core::net::owned::{OwnedIgnored, OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition};
 use cotama_core::net::{Arc, EventId, Net, OutputId, Place, PlaceId, Role, TransitionId, Within};
 use cotama_core::system::{Binding, Clear, Component, Delivery, Link, Of, System, Target};
 use cotama_core::units::Millis;
-use std::collections::HashMap;
 
 /// The location of the tokens of a place.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +40,9 @@ pub struct Numbered {
     /// By the number of a place, and how many of them are of use to a reader.
     seats: Vec<Seat>,
     shown: usize,
-    mailboxes: HashMap<(u16, u32), PlaceId>,
+    mailboxes: BTreeMap<(u16, u32), PlaceId>,
+    /// The places of each net.
+    places: BTreeMap<(u16, u32), PlaceId>,
     /// By the number of an event, and how many are told from outside.
     events: Vec<Of<EventId>>,
     told: usize,
@@ -57,7 +64,8 @@ impl Numbered {
             clears: system.clears.to_vec(),
             seats: Vec::new(),
             shown: 0,
-            mailboxes: HashMap::new(),
+            mailboxes: BTreeMap::new(),
+            places: BTreeMap::new(),
             events: Vec::new(),
             told: 0,
             first: Vec::new(),
@@ -72,7 +80,7 @@ impl Numbered {
         let name = |it: &Component<'_>, of: &str| {
             if alone { of.to_owned() } else { format!("{}.{of}", it.name) }
         };
-        let mut places = HashMap::new();
+        let mut places = BTreeMap::new();
         for (component, it) in (0_u16..).zip(system.components) {
             for (place, id) in it.net.places.iter().zip((0..).map(PlaceId)) {
                 let of = Of { component, id };
@@ -120,6 +128,7 @@ impl Numbered {
             self.add_net(system, component, it.net, &places, |of| name(it, of));
         }
         self.choices = vec![None; self.whole.transitions.len()];
+        self.places = places;
     }
 
     fn seat_of(&mut self, place: OwnedPlace, seat: Seat) -> PlaceId {
@@ -129,7 +138,7 @@ impl Numbered {
     }
 
     /// Places that belong to other nets, and their complements.
-    fn borrow(&mut self, system: &System<'_>, places: &mut HashMap<(u16, u32), PlaceId>) {
+    fn borrow(&mut self, system: &System<'_>, places: &mut BTreeMap<(u16, u32), PlaceId>) {
         for binding in system.bindings {
             let Of { component, id } = binding.shared;
             let seat = match binding.target {
@@ -168,7 +177,7 @@ impl Numbered {
         system: &System<'_>,
         component: u16,
         net: &Net<'_>,
-        places: &HashMap<(u16, u32), PlaceId>,
+        places: &BTreeMap<(u16, u32), PlaceId>,
         name: impl Fn(&str) -> String,
     ) {
         let place = |id: PlaceId| places.get(&(component, id.0)).copied().unwrap_or(id);
@@ -176,7 +185,7 @@ impl Numbered {
             arcs.iter().map(|arc| Arc { place: place(arc.place), ..*arc }).collect()
         };
         let first_output = self.whole.outputs.len() as u32;
-        let mut outputs = HashMap::new();
+        let mut outputs = BTreeMap::new();
         for (output, id) in net.outputs.iter().zip((0..).map(OutputId)) {
             let from = Of { component, id };
             if !system.links.iter().any(|it| it.from == from) {
@@ -185,7 +194,7 @@ impl Numbered {
                 self.whole.outputs.push(said);
             }
         }
-        let told: HashMap<_, _> = (0..)
+        let told: BTreeMap<_, _> = (0..)
             .map(EventId)
             .zip(&self.events)
             .filter(|it| it.1.component == component)
@@ -211,6 +220,22 @@ impl Numbered {
             Some(OwnedIgnored { event, place: place(it.place), guard })
         });
         self.whole.ignored.extend(ignored);
+    }
+
+    /// The number of a place of one of its nets.
+    pub fn place(&self, of: Of<PlaceId>) -> Option<PlaceId> {
+        self.places.get(&(of.component, of.id.0)).copied()
+    }
+
+    /// The number of the first transition of a net; those after it follow in the order of the net.
+    pub fn first_transition(&self, component: usize) -> Option<TransitionId> {
+        self.first.get(component).copied().map(TransitionId)
+    }
+
+    /// The number of an event of one of its nets that is told from outside.
+    pub fn event(&self, of: Of<EventId>) -> Option<EventId> {
+        let at = self.events.iter().position(|it| *it == of)?;
+        u32::try_from(at).ok().map(EventId)
     }
 
     /// Everything in it as one net, for its names and numbers; it is not what is played.
@@ -278,7 +303,7 @@ impl Numbered {
     pub fn line_names(&self) -> Vec<Option<&str>> {
         let start = |name: &str| name.find('.').filter(|&at| at > 0);
         // The name that all transitions of a line begin with, if they do, and how many they are.
-        let mut lines: HashMap<(usize, u32), (Option<&str>, usize)> = HashMap::new();
+        let mut lines: BTreeMap<(usize, u32), (Option<&str>, usize)> = BTreeMap::new();
         for (net, at) in self.nets.iter().zip(0_usize..) {
             for it in &net.transitions {
                 let base = start(&it.name).map(|end| &it.name[..end]);

@@ -1,90 +1,151 @@
 //! A game and the record of what happened in it.
 
-use super::ms;
-use super::refusal::{refusal, round_is_full, taken_by_others};
-use super::step::Step;
-use crate::answers::model::{
-    DeadlineRow, EnabledRow, RefusalRow, SimulateAnswer, StepRow, TokensRow,
-};
+use super::game::{Fired, Game, Unused};
+use super::numbered::Numbered;
+use super::refusal::Refusal;
+use alloc::boxed::Box;
+use alloc::collections::BTreeMap;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::mem::replace;
 use cotama_core::net::{Arc, EventId, Net, OutputId, PlaceId, Transition, TransitionId};
 use cotama_core::player::{Stepped, Why};
 use cotama_core::units::Millis;
-use cotama_verification::play::{Fired, Game, Numbered, Unused};
-use std::collections::BTreeMap;
 
-/// The most transitions that fire in one session.
-pub(super) const MOST_FIRINGS: usize = 200_000;
+/// The most transitions that fire in one session, or since its records were last
+/// [taken](Session::take).
+pub const MOST_FIRINGS: usize = 200_000;
 /// The most rounds that follow each other because something waits.
 const MOST_ROUNDS: usize = 1_000;
 
 /// More than [`MOST_FIRINGS`] transitions would fire.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Endless;
+pub struct Endless;
 
-/// A game and its record.
-pub(super) struct Session<'n, 'c> {
+/// Something that happened: an event with what settled after it, what fired by itself, or a round.
+/// Numbers are those of the [`Numbered`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Record {
+    /// Time of it.
+    pub at: Millis,
+    /// The events that were offered; none for what fired by itself.
+    pub events: Vec<EventId>,
+    /// Whether it is what the nets of a system did in their turns, with what they had mailed.
+    pub round: bool,
+    /// The transitions that fired, in this order.
+    pub fired: Vec<TransitionId>,
+    /// The events that no transition used.
+    pub unused: Vec<Refusal>,
+    /// The outputs that were emitted, in this order.
+    pub emitted: Vec<OutputId>,
+    /// The places that hold another number of tokens afterwards, with that number.
+    pub changed: Vec<(PlaceId, u32)>,
+}
+
+/// A game and its record: what `cotama simulate` plays.
+///
+/// ```
+/// use cotama_core::net::{EventId, TransitionId};
+/// use cotama_core::units::Millis;
+/// use cotama_core::system::{Component, System};
+/// use cotama_play::{Numbered, Session};
+/// cotama_core::net! {
+///     pub mod lamp {
+///         places { Dark: 1, Lit }
+///         events { press }
+///         transitions { on on press: Dark => Lit; off: Lit => Dark after 5_000 ms; }
+///     }
+/// }
+/// let numbered = Numbered::of(&System::alone(&[Component::alone(&lamp::NET)]));
+/// let view = numbered.whole().view();
+/// let net = view.net();
+/// numbered
+///     .play(Millis(0), &mut |game, fired| {
+///         let mut session = Session::new(&numbered, &net, game, false);
+///         session.begin(&fired).unwrap();
+///         session.apply(Millis(100), &[EventId(0)]).unwrap();
+///         session.apply(Millis(9_000), &[]).unwrap();
+///         let off = &session.records()[1];
+///         assert_eq!((off.at, off.fired.as_slice()), (Millis(5_100), &[TransitionId(1)][..]));
+///     })
+///     .unwrap();
+/// ```
+pub struct Session<'n, 'c> {
     net: &'n Net<'n>,
     /// Numbers of a system, which reads its mail in rounds.
     numbered: &'n Numbered,
     game: Box<dyn Game<'c> + 'c>,
     rounds: bool,
     marking: Vec<u32>,
-    steps: Vec<StepRow>,
+    records: Vec<Record>,
     firings: usize,
 }
 
 /// A state that a session goes back to.
-pub(super) struct Saved<'c> {
+pub struct Saved<'c> {
     game: Box<dyn Game<'c> + 'c>,
     marking: Vec<u32>,
-    steps: usize,
+    records: usize,
     firings: usize,
 }
 
+impl Clone for Saved<'_> {
+    fn clone(&self) -> Self {
+        Self { game: self.game.fork(), marking: self.marking.clone(), ..*self }
+    }
+}
+
 impl<'n, 'c> Session<'n, 'c> {
-    /// A game that has not begun to be recorded.
-    pub(super) fn new(
+    /// A game that has not begun to be recorded. With `rounds` each word is one: of a net a
+    /// synchronous step, of a system the turns of its nets, then what is offered.
+    pub fn new(
         numbered: &'n Numbered,
         net: &'n Net<'n>,
         game: Box<dyn Game<'c> + 'c>,
         rounds: bool,
     ) -> Self {
         let marking = net.places.iter().map(|place| place.initial).collect();
-        Self { net, numbered, game, rounds, marking, steps: vec![], firings: 0 }
+        Self { net, numbered, game, rounds, marking, records: vec![], firings: 0 }
     }
 
     /// Records what fired at the start, and lets fire what is due at time zero.
-    pub(super) fn begin(&mut self, fired: &[Fired]) -> Result<(), Endless> {
+    ///
+    /// # Errors
+    /// When it does not come to rest.
+    pub fn begin(&mut self, fired: &[Fired]) -> Result<(), Endless> {
         self.record(fired);
         let begun = if self.rounds { Ok(()) } else { self.advance(Millis(0)) };
         self.look();
         begun
     }
 
-    /// Does what a step says.
-    pub(super) fn apply(&mut self, step: &Step) -> Result<(), Endless> {
+    /// Lets time pass up to `at`, then offers these events: at most one, but in a round.
+    ///
+    /// # Errors
+    /// When it does not come to rest; [`restore`](Self::restore) leads back.
+    pub fn apply(&mut self, at: Millis, events: &[EventId]) -> Result<(), Endless> {
         let done = match (self.rounds, self.numbered.is_system()) {
-            (true, false) => self.synchronous(step),
-            (true, true) => self.round(step.at).and_then(|()| self.offer(step)),
-            (false, _) => self.advance(step.at).and_then(|()| self.offer(step)),
+            (true, false) => self.synchronous(at, events),
+            (true, true) => self.round(at).and_then(|()| self.offer(at, events)),
+            (false, _) => self.advance(at).and_then(|()| self.offer(at, events)),
         };
         self.look();
         done
     }
 
     /// Offers the events of a step, one after the other, and lets settle what follows.
-    fn offer(&mut self, step: &Step) -> Result<(), Endless> {
-        for &event in &step.events {
+    fn offer(&mut self, at: Millis, events: &[EventId]) -> Result<(), Endless> {
+        for &event in events {
             let mut fired = vec![];
-            match self.game.offer(step.at, event, &mut fired) {
+            match self.game.offer(at, event, &mut fired) {
                 Ok(_) => self.record(&fired),
                 Err(why) => {
-                    let ignored = vec![refusal(self.net, &self.marking, event, why)];
-                    self.push(step.at, &[event], &[], ignored);
+                    let ignored = vec![Refusal::of(self.net, &self.marking, event, why)];
+                    self.push(at, &[event], &[], ignored);
                 }
             }
             if !self.rounds {
-                self.advance(step.at)?;
+                self.advance(at)?;
             }
         }
         Ok(())
@@ -97,7 +158,7 @@ impl<'n, 'c> Session<'n, 'c> {
         let behind = self.game.round(at, &mut fired);
         if self.rounds || !fired.is_empty() {
             self.push(at, &[], &fired, vec![]);
-            self.steps.iter_mut().next_back().into_iter().for_each(|it| it.round = true);
+            self.records.iter_mut().next_back().into_iter().for_each(|it| it.round = true);
         }
         self.look();
         if behind { Err(Endless) } else { Ok(()) }
@@ -120,21 +181,16 @@ impl<'n, 'c> Session<'n, 'c> {
 
     /// Reads from the game what arcs do not say: mailboxes, and places that several nets change.
     fn look(&mut self) {
-        let net = self.net;
         let mut changed = vec![];
-        for ((place, tokens), id) in
-            net.places.iter().zip(&mut self.marking).zip((0..).map(PlaceId))
-        {
+        for (tokens, id) in self.marking.iter_mut().zip((0..).map(PlaceId)) {
             let now = self.game.tokens(id);
-            if std::mem::replace(tokens, now) != now
-                && (id.0 as usize) < self.numbered.shown_places()
-            {
-                changed.push(TokensRow { place: place.name.to_owned(), tokens: now });
+            if replace(tokens, now) != now && (id.0 as usize) < self.numbered.shown_places() {
+                changed.push((id, now));
             }
         }
-        if let Some(step) = self.steps.last_mut() {
-            step.changed.retain(|it| changed.iter().all(|new| new.place != it.place));
-            step.changed.extend(changed);
+        if let Some(record) = self.records.last_mut() {
+            record.changed.retain(|it| changed.iter().all(|new| new.0 != it.0));
+            record.changed.extend(changed);
         }
     }
 
@@ -153,15 +209,14 @@ impl<'n, 'c> Session<'n, 'c> {
     }
 
     /// All transitions of a net see the same marking.
-    fn synchronous(&mut self, step: &Step) -> Result<(), Endless> {
+    fn synchronous(&mut self, at: Millis, events: &[EventId]) -> Result<(), Endless> {
         let before = self.game.fork();
         let mut fired = vec![];
-        let round = self.game.step(step.at, &step.events, &mut fired);
+        let round = self.game.step(at, events, &mut fired);
         let used = |event| fired.iter().any(|it| self.is_on(it, event));
-        let unused = step.events.iter().filter(|&&event| !used(event));
-        let ignored =
-            unused.map(|&event| self.refused_round(&*before, step.at, round, event)).collect();
-        self.push(step.at, &step.events, &fired, ignored);
+        let unused = events.iter().filter(|&&event| !used(event));
+        let ignored = unused.map(|&event| self.refused_round(&*before, at, round, event)).collect();
+        self.push(at, events, &fired, ignored);
         if self.firings > MOST_FIRINGS { Err(Endless) } else { Ok(()) }
     }
 
@@ -176,14 +231,14 @@ impl<'n, 'c> Session<'n, 'c> {
         at: Millis,
         round: Stepped,
         event: EventId,
-    ) -> RefusalRow {
+    ) -> Refusal {
         if round.full {
-            return round_is_full(self.net, event);
+            return Refusal::round_is_full(event);
         }
         let mut fired = vec![];
         let _ = before.fork().step(at, &[event], &mut fired);
         if fired.iter().any(|it| self.is_on(it, event)) {
-            return taken_by_others(self.net, event);
+            return Refusal::taken_by_others(event);
         }
         // Offered alone, it is the marking and the clocks that refuse it; what settles before that
         // is for later rounds.
@@ -191,7 +246,7 @@ impl<'n, 'c> Session<'n, 'c> {
             Err(why) => why,
             Ok(_) => Unused::Ignored(Why::NotEnabled),
         };
-        refusal(self.net, &self.marking, event, why)
+        Refusal::of(self.net, &self.marking, event, why)
     }
 
     /// Records transitions: an event, or a transition that was due, with what settled after it.
@@ -210,7 +265,7 @@ impl<'n, 'c> Session<'n, 'c> {
         }
     }
 
-    fn push(&mut self, at: Millis, events: &[EventId], fired: &[Fired], ignored: Vec<RefusalRow>) {
+    fn push(&mut self, at: Millis, events: &[EventId], fired: &[Fired], unused: Vec<Refusal>) {
         let net = self.net;
         let transitions =
             || fired.iter().filter_map(|it| net.transitions.get(it.transition.0 as usize));
@@ -229,21 +284,18 @@ impl<'n, 'c> Session<'n, 'c> {
         }
         let changed = before.iter().filter_map(|(&place, &before)| {
             let tokens = *self.marking.get(place as usize)?;
-            let name = net.places.get(place as usize)?.name;
             let shown = (place as usize) < self.numbered.shown_places();
-            (tokens != before && shown).then(|| TokensRow { place: name.to_owned(), tokens })
+            (tokens != before && shown).then_some((PlaceId(place), tokens))
         });
-        let outputs = transitions().flat_map(|it| it.emits);
-        let output = |id: &OutputId| net.outputs.get(id.0 as usize).map(|it| it.name.to_owned());
-        self.firings += fired.len();
-        self.steps.push(StepRow {
-            time_ms: ms(at),
-            events: events.iter().map(|&event| self.event(event)).collect(),
-            fired: transitions().map(|it| it.name.to_owned()).collect(),
-            emitted: outputs.filter_map(output).collect(),
-            changed: changed.collect(),
-            ignored,
+        self.firings = self.firings.saturating_add(fired.len());
+        self.records.push(Record {
+            at,
+            events: events.to_vec(),
             round: false,
+            fired: fired.iter().map(|it| it.transition).collect(),
+            unused,
+            emitted: transitions().flat_map(|it| it.emits).copied().collect(),
+            changed: changed.collect(),
         });
     }
 
@@ -251,93 +303,90 @@ impl<'n, 'c> Session<'n, 'c> {
         self.net.transitions.get(id as usize)
     }
 
-    fn name(&self, id: TransitionId) -> String {
-        self.transition(id).map_or_else(String::new, |it| it.name.to_owned())
-    }
-
-    fn event(&self, EventId(id): EventId) -> String {
-        self.net.events.get(id as usize).map_or_else(String::new, |it| it.name.to_owned())
-    }
-
     /// Returns the played net or system, as one net.
-    pub(super) fn net(&self) -> &'n Net<'n> {
+    pub fn net(&self) -> &'n Net<'n> {
         self.net
     }
 
     /// The time it was last told.
-    pub(super) fn now(&self) -> Millis {
+    pub fn now(&self) -> Millis {
         self.game.now()
     }
 
-    /// How many steps were recorded.
-    pub(super) fn recorded(&self) -> usize {
-        self.steps.len()
+    /// Whether something waits in a mailbox.
+    pub fn round_is_due(&self) -> bool {
+        self.game.round_is_due()
+    }
+
+    /// Returns the numbers by which everything is named.
+    pub fn numbered(&self) -> &'n Numbered {
+        self.numbered
+    }
+
+    /// Whether each word is a round: see [`new`](Self::new).
+    pub fn rounds(&self) -> bool {
+        self.rounds
+    }
+
+    /// What happened, in this order.
+    pub fn records(&self) -> &[Record] {
+        &self.records
+    }
+
+    /// Takes the records out; so many more transitions may fire again.
+    pub fn take(&mut self) -> Vec<Record> {
+        self.firings = 0;
+        core::mem::take(&mut self.records)
+    }
+
+    /// The tokens of each place, by its number.
+    pub fn marking(&self) -> &[u32] {
+        &self.marking
+    }
+
+    /// The same session, to go on with in another way; its records are not copied.
+    #[must_use]
+    pub fn fork(&self) -> Self {
+        Self { game: self.game.fork(), marking: self.marking.clone(), records: vec![], ..*self }
     }
 
     /// Returns the state, to be brought back later.
-    pub(super) fn save(&self) -> Saved<'c> {
+    pub fn save(&self) -> Saved<'c> {
         Saved {
             game: self.game.fork(),
             marking: self.marking.clone(),
-            steps: self.steps.len(),
+            records: self.records.len(),
             firings: self.firings,
         }
     }
 
     /// Makes undone what happened since.
-    pub(super) fn restore(&mut self, saved: Saved<'c>) {
-        self.steps.truncate(saved.steps);
+    pub fn restore(&mut self, saved: Saved<'c>) {
+        self.records.truncate(saved.records);
         (self.game, self.marking, self.firings) = (saved.game, saved.marking, saved.firings);
     }
 
-    /// Returns the steps from `from` on, and the events possible now.
-    pub(super) fn answer(&self, by_name: bool, complete: bool, from: usize) -> SimulateAnswer {
-        let steps = self.steps.get(from..).unwrap_or_default();
-        let mut enabled = vec![];
-        let mut unused = vec![];
-        for event in (0..self.net.events.len() as u32).map(EventId) {
-            match self.prospect(event) {
-                Ok(transition) => enabled.push(EnabledRow { event: self.event(event), transition }),
-                Err(refusal) => unused.push(refusal),
-            }
-        }
-        let marked = self.net.places.iter().zip(&self.marking).take(self.numbered.shown_places());
-        SimulateAnswer {
-            schema: "cotama/simulate/1",
-            model: self.net.name.to_owned(),
-            rounds: self.rounds,
-            by_name,
-            complete,
-            ignored: steps.iter().map(|step| step.ignored.len() as u64).sum(),
-            time_ms: ms(self.now()),
-            fired: steps.iter().flat_map(|step| step.fired.iter().cloned()).collect(),
-            steps: steps.to_vec(),
-            marking: marked.map(|(place, &tokens)| (place.name.to_owned(), tokens)).collect(),
-            enabled,
-            unused,
-            deadline: self.deadline(),
-        }
-    }
-
-    /// The transition that would use an event now, or why none would.
-    fn prospect(&self, event: EventId) -> Result<String, RefusalRow> {
+    /// The transition that would use an event now.
+    ///
+    /// # Errors
+    /// Why none would.
+    pub fn prospect(&self, event: EventId) -> Result<TransitionId, Refusal> {
         let (now, mut game, mut fired) = (self.now(), self.game.fork(), vec![]);
         if self.rounds && !self.numbered.is_system() {
             let round = game.step(now, &[event], &mut fired);
             let user = fired.iter().find(|it| self.is_on(it, event));
             let user = user.ok_or_else(|| self.refused_round(&*self.game, now, round, event))?;
-            return Ok(self.name(user.transition));
+            return Ok(user.transition);
         }
-        match game.offer(now, event, &mut fired) {
-            Ok(transition) => Ok(self.name(transition)),
-            Err(why) => Err(refusal(self.net, &self.marking, event, why)),
-        }
+        let offered = game.offer(now, event, &mut fired);
+        offered.map_err(|why| Refusal::of(self.net, &self.marking, event, why))
     }
 
-    fn deadline(&self) -> Option<DeadlineRow> {
+    /// When something happens next by itself, and the transition that fires first.
+    pub fn deadline(&self) -> Option<(Millis, TransitionId)> {
         let at = self.game.wake_at()?;
         let mut fired = vec![];
         let _ = self.game.fork().advance(at, &mut fired);
-        Some(DeadlineRow { time_ms: ms(at), transition: self.name(fired.first()?.transition) })
+        Some((at, fired.first()?.transition))
     }
 }

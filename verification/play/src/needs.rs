@@ -1,7 +1,11 @@
 //! The needs that a transition lacks, in words.
 
+use super::condition::condition;
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
 use cotama_core::net::{Arc, EventId, Ignored, Net, PlaceId, Transition};
-use cotama_formats::condition;
 
 /// The most transitions of which it is said what they lack.
 const SHOWN: usize = 2;
@@ -33,7 +37,7 @@ fn lacks(net: &Net<'_>, tokens: &dyn Fn(PlaceId) -> u32, it: &Transition<'_>) ->
 ///
 /// ```
 /// use cotama_core::net::{EventId, PlaceId};
-/// use cotama_verification::play::ignored_in;
+/// use cotama_play::ignored_in;
 /// cotama_core::net! {
 ///     mod drive {
 ///         places { Idle: 1, Driving }

@@ -1,0 +1,227 @@
+#!/usr/bin/env python3
+"""Runs in the module of pages, held against `cotama simulate`, record by record.
+
+    check.py PROGRAM [--runs N] [--module FILE.wasm]
+
+Of every model, robot and team that PROGRAM lists it writes the page, takes model and module out of
+it (or another module), draws runs of up to 12 words, and compares the records, the marking, what
+would use each event, and the next deadline. Needs `wasmtime` (PyPI).
+"""
+
+import argparse
+import base64
+import json
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import tempfile
+
+import wasmtime
+
+REASONS = ["", "on_purpose", "not_enabled", "too_early", "too_late", "full"]
+WORDS = 12
+
+
+class Module:
+    """A model in play, in the module."""
+
+    def __init__(self, made, data):
+        store, module = made
+        self.store, self.data = store, data
+        self.exports = wasmtime.Instance(store, module, []).exports(store)
+        self.memory = self.exports["memory"]
+        self.model = base64.b64decode(data["model"])
+
+    def call(self, name, *numbers):
+        return self.exports[name](self.store, *numbers)
+
+    def start(self, rounds):
+        self.page = self.call("open", len(self.model))
+        self.memory.write(self.store, self.model, self.call("input", self.page))
+        if self.call("load", self.page, int(rounds)) != 0:
+            raise RuntimeError(self.text())
+        return self.records()
+
+    def words(self):
+        start, length = self.call("words", self.page), self.call("words_length", self.page)
+        return iter(memoryview(self.memory.read(self.store, start, start + 4 * length)).cast("I"))
+
+    def text(self):
+        start, length = self.call("text", self.page), self.call("text_length", self.page)
+        return bytes(self.memory.read(self.store, start, start + length)).decode()
+
+    def tell(self, event, at):
+        number = 0 if event is None else event + 1
+        status = self.call("tell", self.page, number, at % 2**32, at // 2**32)
+        return self.records() if status == 0 else status
+
+    def why(self, event, at):
+        self.call("why", self.page, event, at % 2**32, at // 2**32)
+        return self.text()
+
+    def records(self):
+        words, data = self.words(), self.data
+        return [self.record(words, data) for _ in range(next(words))]
+
+    def record(self, words, data):
+        at, is_round = time(words), next(words) == 1
+        events, fired = listed(words), listed(words)
+        unused, emitted, changed = pairs(words), listed(words), pairs(words)
+        record = {
+            "time_ms": at,
+            "events": [data["events"][it][0] for it in events],
+            "fired": [data["transitions"][it][0] for it in fired],
+            "ignored": [(data["events"][it][0], REASONS[why]) for it, why in unused],
+            "emitted": [data["outputs"][it] for it in emitted],
+            "changed": [(data["places"][it][0], tokens) for it, tokens in changed],
+        }
+        return {**record, **({"round": True} if is_round else {})}
+
+    def state(self, at):
+        self.call("state", self.page, at % 2**32, at // 2**32)
+        words, data = self.words(), self.data
+        _, _, now, _ = next(words), next(words), time(words), next(words)
+        is_due, due, first = next(words) == 1, time(words), next(words)
+        tokens, prospects = listed(words), pairs(words)
+        return {
+            "time_ms": now,
+            "deadline": (due, data["transitions"][first][0]) if is_due else None,
+            "tokens": tokens,
+            "prospects": prospects,
+        }
+
+
+def time(words):
+    low = next(words)
+    return low + (next(words) << 32)
+
+
+def listed(words):
+    return [next(words) for _ in range(next(words))]
+
+
+def pairs(words):
+    return [(next(words), next(words)) for _ in range(next(words))]
+
+
+def word(name, at, now):
+    return f"+{at - now}" if name is None else f"{name}@{at}"
+
+
+def drawn(rng, data, module, rounds):
+    """A run: what is told, more often than not what something would use."""
+    records, now, words = module.start(rounds), 0, []
+    for _ in range(rng.randint(1, WORDS)):
+        state, at = module.state(now), now + rng.choice([0, 0, 1, 50, 100, 1000, 5000, 60000])
+        due = state["deadline"]
+        if due and rng.random() < 0.2:
+            at = max(now, due[0])
+        usable = [it for it, (why, _) in enumerate(state["prospects"]) if why == 0]
+        event = None
+        if data["events"] and rng.random() < 0.8:
+            is_usable = usable and rng.random() < 0.7
+            event = rng.choice(usable) if is_usable else rng.randrange(len(data["events"]))
+        if event is None and at == now and not rounds:
+            at += 1
+        name = None if event is None else data["events"][event][0]
+        told = module.tell(event, at)
+        if told == 1:
+            break
+        assert not isinstance(told, int), (told, words)
+        words.append(word(name, at, now))
+        records, now = records + told, at
+    return words, records, module.state(now), now
+
+
+def same(program, path, words, rounds, mine, state, module, now):
+    """Asserts that the program says the same."""
+    command = [program, "simulate", path, "--json", *(["--rounds"] if rounds else []), "--", *words]
+    said = subprocess.run(command, capture_output=True, text=True, check=True)
+    answer = json.loads(said.stdout)
+    theirs = [
+        {
+            **it,
+            "ignored": [(why["event"], why["reason"]) for why in it["ignored"]],
+            "changed": [(place["place"], place["tokens"]) for place in it["changed"]],
+        }
+        for it in answer["steps"]
+    ]
+    assert mine == theirs, first(mine, theirs)
+    due = answer["deadline"]
+    assert state["deadline"] == (due and (due["time_ms"], due["transition"])), (state, due)
+    assert state["time_ms"] == answer["time_ms"]
+    assert state["tokens"][: len(answer["marking"])] == list(answer["marking"].values())
+    if rounds:
+        return
+    users = {it["event"]: it["transition"] for it in answer["enabled"]}
+    unused = {it["event"]: it for it in answer["unused"]}
+    for event, (why, transition) in enumerate(state["prospects"]):
+        name = module.data["events"][event][0]
+        if why == 0:
+            assert users[name] == module.data["transitions"][transition][0], name
+        else:
+            assert unused[name]["reason"] == REASONS[why], name
+            assert unused[name]["text"] == module.why(event, now), name
+
+
+def first(mine, theirs):
+    for at, pair in enumerate(zip(mine, theirs)):
+        if pair[0] != pair[1]:
+            return f"record {at}: {pair}"
+    return f"{len(mine)} and {len(theirs)} records"
+
+
+def subjects(program):
+    """The name of each model, the least of each family, each robot and its missions."""
+    said = lambda *words: json.loads(subprocess.check_output([program, *words, "--json"]))
+    for model in said("models")["models"]:
+        numbers = model.get("numbers")
+        yield f"{model['name']}:{max(2, numbers['least'])}" if numbers else model["name"]
+    listed = said("list")
+    yield from (it["name"] for kind in ("robots", "missions", "scenarios") for it in listed[kind])
+
+
+def main():
+    asked = argparse.ArgumentParser()
+    asked.add_argument("program")
+    asked.add_argument("--runs", type=int, default=200)
+    asked.add_argument("--module")
+    asked = asked.parse_args()
+    engine = wasmtime.Engine()
+    folder = pathlib.Path(tempfile.mkdtemp())
+    models = []
+    for path in subjects(asked.program):
+        page = folder / "page.html"
+        command = [asked.program, "play", path, "--output", str(page)]
+        written = subprocess.run(command, capture_output=True, text=True)
+        if written.returncode != 0:
+            # A mission without a robot has no supervisors to play; two ways are no model.
+            continue
+        text = page.read_text(encoding="utf-8")
+        data = re.search(r'<script type="application/json" id="data">(.*?)</script>', text).group(1)
+        models.append((path, json.loads(data)))
+    page.unlink()
+    folder.rmdir()
+    bytes_ = pathlib.Path(asked.module).read_bytes() if asked.module else None
+    module = wasmtime.Module(engine, bytes_ or base64.b64decode(models[0][1]["module"]))
+    rng, records, done = random.Random(45), 0, {}
+    for at in range(asked.runs):
+        path, data = models[at % len(models)]
+        rounds = data["system"] and rng.random() < 0.5
+        # A store of its own: a page keeps its memory.
+        it = Module((wasmtime.Store(engine), module), data)
+        words, mine, state, now = drawn(rng, data, it, rounds)
+        if not words:
+            continue
+        try:
+            same(asked.program, path, words, rounds, mine, state, it, now)
+        except (AssertionError, subprocess.CalledProcessError) as wrong:
+            sys.exit(f"{path} {'--rounds ' if rounds else ''}{' '.join(words)}: {wrong}")
+        records += len(mine)
+        done[path] = done.get(path, 0) + 1
+    print(f"{sum(done.values())} runs of {len(done)} models: {records} records are the same")
+
+
+main()
