@@ -17,6 +17,7 @@ mod recording;
 mod risk;
 mod schema;
 mod team;
+mod tree;
 mod ways;
 
 pub(crate) use assign::AssignArgs;
@@ -42,6 +43,7 @@ pub(crate) use risk::{
 };
 pub(crate) use schema::{SchemaArgs, SchemaName};
 pub(crate) use team::{Compare, TeamArgs};
+pub(crate) use tree::{Deny, LeafName, TreeArgs};
 pub(crate) use ways::WaysArgs;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};

@@ -23,6 +23,7 @@ use crate::progress::Progress;
 use crate::render::style::NAME;
 use crate::render::{self, visible};
 use crate::subject::{Subject, Unmade};
+use crate::tree;
 use cotama_verification::certificate::Evidence;
 use cotama_verification::check::{Answer, Checker, Choice, Extent, Options, Reason, Verdict};
 use cotama_verification::diagnosis::Diagnosis;
@@ -34,6 +35,10 @@ use std::time::Instant;
 
 /// Answers all questions to a model; with `--watch` again whenever a file changes.
 pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
+    if tree::is(&args.model) {
+        return tree::check::check(args, screen);
+    }
+    tree::idle(args.tree.given().or(args.wishes.given()), &args.model)?;
     let last_word = LastWord::new(args.json.json);
     if !args.watch {
         return once(args, screen, &last_word);

@@ -12,6 +12,7 @@ use crate::output::Screen;
 use crate::render;
 use crate::robot;
 use crate::simulate::not_played;
+use crate::tree;
 use cotama_core::units::Millis;
 use cotama_models::missions::Mission;
 use cotama_models::robots::RobotFile;
@@ -27,6 +28,11 @@ const OPERATOR: &str = "operator";
 
 /// Tells a model again what was recorded.
 pub(crate) fn conform(args: &ConformArgs, screen: &Screen) -> Result<Exit, Failure> {
+    if tree::is(&args.model.model) {
+        return tree::conform(args, screen);
+    }
+    let option = args.tree.given().or(args.clock.then_some("--clock"));
+    tree::idle(option, &args.model.model)?;
     if args.model.model == "-" && args.trace == "-" {
         return Err(Failure::new("standard input cannot hold both the model and the recorded run")
             .help("give the path of the model"));

@@ -9,6 +9,7 @@ use crate::output::{self, Screen};
 use crate::render;
 use crate::render::style::NAME;
 use crate::render::visible;
+use crate::tree;
 use clap::ValueEnum;
 use cotama_axes::causes::Causes;
 use cotama_core::net::owned::OwnedNet;
@@ -41,6 +42,13 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
                 .help(format!("formats: {}", formats().join(", "))));
         }
     };
+    if tree::is(&args.model.model) {
+        return tree::export(args, format, screen);
+    }
+    tree::idle(args.tree.given(), &args.model.model)?;
+    if format == Format::Btcpp {
+        return Err(of_trees());
+    }
     if let Some(file) = axes::file(&args.model.model)? {
         return causes(&file, args, format, screen);
     }
@@ -196,7 +204,12 @@ fn written(
         Format::Matrix => matrices(net)?,
         Format::Json => json::write(net),
         Format::Net => time_net(net, screen)?,
+        Format::Btcpp => return Err(of_trees()),
     })
+}
+
+fn of_trees() -> Failure {
+    Failure::new("btcpp is a format of behaviour trees").help("nets are written as pnml or json")
 }
 
 /// One net of a system.
@@ -305,6 +318,7 @@ fn by_name(path: &Path) -> Result<Format, Failure> {
         Some("tsv") => Format::Matrix,
         Some("json") => Format::Json,
         Some("net") => Format::Net,
+        Some("xml") => Format::Btcpp,
         _ => {
             let message = format!("{}: the end of this name says no format", path.display());
             return Err(Failure::new(message).help(format!("--format {}", formats().join("|"))));

@@ -56,16 +56,12 @@ const BYTES: [(&[u8], &str, &str); 24] = [
 const PNML: &str = "its editor exports PNML, which is read";
 const STORED: &str = "`cotama` writes this format and does not read it; give the net it came from, \
     as PNML, JSON or TINA's .net";
-const TREE: &str = "behaviour trees are not read; `cotama new net NAME` begins a net";
 
 /// The first element of an XML file, what it is, and the way out.
-const ELEMENTS: [(&str, &str, &str); 26] = [
+const ELEMENTS: [(&str, &str, &str); 23] = [
     ("log", "an event log (XES)", BAG),
     ("project", "a project of GreatSPN (.PNPRO)", "in GreatSPN's editor: export the net as PNML"),
     ("scxml", "a state machine (SCXML)", STORED),
-    ("root", "a behaviour tree (XML)", TREE),
-    ("BehaviorTree", "a behaviour tree (XML)", TREE),
-    ("TreeNodesModel", "a behaviour tree (XML)", TREE),
     ("nta", "timed automata of UPPAAL", "give a time net as TINA's .net"),
     (
         "workspaceElements",
@@ -235,7 +231,6 @@ mod tests {
             ("|256\n%\n|\n", "the marking and rates of a net of GreatSPN (.def)"),
             ("{\"jani-version\": 1, \"name\": \"x\"}", "a model in JANI"),
             ("<scxml version=\"1.0\" initial=\"a\"/>", "a state machine (SCXML)"),
-            ("<root BTCPP_format=\"4\"><BehaviorTree ID=\"A\"/></root>", "a behaviour tree (XML)"),
             ("<bpmn:definitions>", "a process (BPMN)"),
             ("<nta><declaration/></nta>", "timed automata of UPPAAL"),
             ("digraph net { a -> b }", "a graph for Graphviz (DOT)"),

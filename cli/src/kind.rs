@@ -39,6 +39,8 @@ pub(crate) enum Kind {
     Margins,
     Robot,
     Floor,
+    /// A behaviour tree of BehaviorTree.CPP.
+    Tree,
 }
 
 /// The kinds that hold a model.
@@ -56,6 +58,7 @@ impl Kind {
             return match foreign::root(start)? {
                 "pnml" => Some(Self::Pnml),
                 "property-set" => Some(Self::Properties),
+                "root" | "BehaviorTree" | "TreeNodesModel" => Some(Self::Tree),
                 _ => None,
             };
         }
@@ -136,6 +139,7 @@ impl Kind {
             Self::TeamTrace => "the trace of a team",
             Self::Robot => "a robot",
             Self::Floor => "a floor",
+            Self::Tree => "a behaviour tree",
         }
     }
 
@@ -162,6 +166,7 @@ impl Kind {
             Self::TeamTrace => "`cotama run fleet --trace FILE` writes one",
             Self::Robot => "`cotama new robot NAME` begins one",
             Self::Floor => "`cotama new floor NAME` begins one",
+            Self::Tree => "Groot2 draws one, in the format of BehaviorTree.CPP 4",
         }
     }
 
@@ -170,7 +175,12 @@ impl Kind {
         match self {
             Self::Mission | Self::Axes => format!("cotama plan {file}"),
             Self::Faults => format!("cotama run MISSION --faults {file}"),
-            Self::Pnml | Self::JsonNet | Self::JsonSystem | Self::Tina | Self::Robot => {
+            Self::Pnml
+            | Self::JsonNet
+            | Self::JsonSystem
+            | Self::Tina
+            | Self::Robot
+            | Self::Tree => {
                 format!("cotama check {file}")
             }
             Self::Properties => format!("cotama check MODEL --properties {file}"),
@@ -295,6 +305,7 @@ mod tests {
             ("format=\"panorama-faults/9\"", Kind::Faults),
             ("\u{feff}<?xml version=\"1.0\"?>\n<pnml xmlns=\"..\">", Kind::Pnml),
             ("<?xml?><property-set>", Kind::Properties),
+            ("<!-- a --><root BTCPP_format=\"4\">", Kind::Tree),
             ("{\n  \"schema\": \"cotama/net/1\"", Kind::JsonNet),
             ("{\"schema\": \"cotama-system/1\"", Kind::JsonSystem),
             ("{\"schema\":\"cotama-certificate/1\",", Kind::Certificate),

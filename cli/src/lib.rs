@@ -56,6 +56,7 @@ mod solve;
 mod statespace;
 mod subject;
 mod team;
+mod tree;
 mod verify;
 mod ways;
 mod words;

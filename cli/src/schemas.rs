@@ -54,6 +54,9 @@ mod tests {
     use crate::answers::axes::AxesAnswer;
     use crate::answers::axes_run::AxesRunAnswer;
     use crate::answers::campaign::CampaignAnswer;
+    use crate::answers::check::tree::{
+        TreeAnswer, TreeConformAnswer, TreeSimulateAnswer, TreeSpaceAnswer,
+    };
     use crate::answers::check::{CheckAnswer, StatespaceAnswer, VerifyAnswer};
     use crate::answers::conform::ConformAnswer;
     use crate::answers::curves::CurvesAnswer;
@@ -115,11 +118,15 @@ mod tests {
             ("models", of::<ModelsAnswer>()),
             ("simulate", of::<SimulateAnswer>()),
             ("play", of::<PlayAnswer>()),
+            ("simulate-tree", of::<TreeSimulateAnswer>()),
             ("check", of::<CheckAnswer>()),
+            ("check-tree", of::<TreeAnswer>()),
             ("statespace", of::<StatespaceAnswer>()),
+            ("statespace-tree", of::<TreeSpaceAnswer>()),
             ("estimate", of::<EstimateAnswer>()),
             ("verify", of::<VerifyAnswer>()),
             ("conform", of::<ConformAnswer>()),
+            ("conform-tree", of::<TreeConformAnswer>()),
             ("recording", serde_json::from_str(LINE_SCHEMA).unwrap()),
             ("floor", of::<FloorAnswer>()),
             ("fmeca", of::<FmecaAnswer>()),

@@ -11,6 +11,7 @@ use crate::input;
 use crate::model;
 use crate::output::{self, Screen};
 use crate::render;
+use crate::tree;
 use cotama_core::text;
 use cotama_core::units::Millis;
 use cotama_verification::conform::SCHEMA;
@@ -21,6 +22,10 @@ use step::{Step, Words};
 
 /// Plays a net or a system.
 pub(crate) fn simulate(args: &SimulateArgs, screen: &Screen) -> Result<Exit, Failure> {
+    if tree::is(&args.model.model) {
+        return tree::simulate(args, screen);
+    }
+    tree::idle(args.tree.given(), &args.model.model)?;
     let numbered = model::with_system(&args.model.model, |it, _| Numbered::of(it))?;
     let taken = args.model.model == "-";
     let here = || std::io::stdin().is_terminal() && std::io::stdout().is_terminal();

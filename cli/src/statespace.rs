@@ -9,6 +9,7 @@ use crate::output::Screen;
 use crate::progress::Progress;
 use crate::render;
 use crate::subject::{Subject, TooLarge, Unmade};
+use crate::tree;
 use cotama_core::net::TransitionId;
 use cotama_verification::check::Model;
 use cotama_verification::coverability::{self, Bounded};
@@ -20,6 +21,10 @@ use std::time::Instant;
 
 /// Counts what is reachable.
 pub(crate) fn statespace(args: &StatespaceArgs, screen: &Screen) -> Result<Exit, Failure> {
+    if tree::is(&args.model) {
+        return tree::statespace(args, screen);
+    }
+    tree::idle(args.tree.given(), &args.model)?;
     let mut subject = match Subject::load(&args.model, args.untimed, args.semantics) {
         Ok(subject) => subject,
         Err(Unmade::Failure(failure)) => return Err(failure),

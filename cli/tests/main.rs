@@ -58,4 +58,5 @@ mod special;
 mod statespace;
 mod team;
 mod texts;
+mod trees;
 mod ways;

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
 
-const COMMANDS: [&str; 32] = [
+const COMMANDS: [&str; 36] = [
     "list",
     "explain-team",
     "plan",
@@ -21,11 +21,15 @@ const COMMANDS: [&str; 32] = [
     "models",
     "simulate",
     "play",
+    "simulate-tree",
     "check",
+    "check-tree",
     "statespace",
+    "statespace-tree",
     "estimate",
     "verify",
     "conform",
+    "conform-tree",
     "recording",
     "floor",
     "fmeca",

@@ -211,7 +211,7 @@ fn files_of_other_tools_are_named_with_the_way_out() {
         ("m.jani", "{\"jani-version\": 1}", "check m.jani", "a model in JANI"),
         ("m.json", "{\"jani-version\": 1}", "check m.json", "a model in JANI"),
         ("s.scxml", "<scxml version=\"1.0\"/>", "simulate s.scxml", "a state machine (SCXML)"),
-        ("t.xml", "<root BTCPP_format=\"4\"/>", "check t.xml", "a behaviour tree (XML)"),
+        ("t.xml", "<root BTCPP_format=\"4\"/>", "verify t.xml", "a behaviour tree"),
         ("m.yaml", "limits:\n  energy: 3\n", "plan m.yaml", "YAML, it seems"),
         ("m.yml", "---\na: 1\n", "run m.yml", "YAML, it seems"),
         ("m.json", "{\"limits\": 3}", "plan m.json", "JSON"),

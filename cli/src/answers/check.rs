@@ -1,5 +1,7 @@
 //! The answers of the commands that check.
 
+pub(crate) mod tree;
+
 use crate::args::Semantics;
 #[cfg(test)]
 use schemars::JsonSchema;

@@ -2,6 +2,7 @@
 
 use super::Json;
 use super::number::whole;
+use super::tree::{TreeArgs, TreeWishes};
 use clap::{Args, ValueEnum};
 #[cfg(test)]
 use schemars::JsonSchema;
@@ -48,6 +49,12 @@ Teams: of a team at work (`service`, or a file as `cotama run` takes it) the pro
 robots give out its tasks is checked, with requirements S1 to S9 and L1 to L4: `r2.executing.t1` \
 is its second robot in its first task. As many robots fail as its file has faults of robots. Where \
 the net may have more than 100000 transitions, all is unknown.
+
+Behaviour trees: of the XML of BehaviorTree.CPP 4 and Nav2 everything is asked that can go wrong, \
+from a SUCCESS that is lost to a node that is never ticked; each finding has a run with the fewest \
+ticks. Own properties speak of nodes after a tick: `AG !(Wait.running & BackUp.running)`, \
+`EF root.success`, `AF done`. Findings that are errors end with exit code 1; --deny warnings \
+ends so for warnings too.
 
 Evidence: --certificate FILE writes what `cotama verify` checks again. Of several properties each \
 has a file of its own, FILE-1.json, FILE-2.json and so on by its position; so for --trace.
@@ -127,7 +134,8 @@ fn seconds(text: &str) -> Result<Duration, String> {
 #[derive(Args, Debug)]
 pub(crate) struct CheckArgs {
     /// The name of a model that comes with the program, the path of a PNML, JSON or TINA (.net)
-    /// file, or `-`; a robot or its mission, for its supervisors; a team at work, for its protocol
+    /// file, or `-`; a robot or its mission, for its supervisors; a team at work, for its protocol;
+    /// a behaviour tree of BehaviorTree.CPP 4 (.xml)
     pub(crate) model: String,
     /// Of a robot: its supervisors in this mission, whose objectives its global supervisor has
     #[arg(long, value_name = "MISSION")]
@@ -173,6 +181,10 @@ pub(crate) struct CheckArgs {
     pub(crate) mcc: bool,
     #[command(flatten)]
     pub(crate) json: Json,
+    #[command(flatten)]
+    pub(crate) tree: TreeArgs,
+    #[command(flatten)]
+    pub(crate) wishes: TreeWishes,
 }
 
 #[derive(Args, Debug)]
@@ -193,6 +205,8 @@ pub(crate) struct StatespaceArgs {
     pub(crate) mcc: bool,
     #[command(flatten)]
     pub(crate) json: Json,
+    #[command(flatten)]
+    pub(crate) tree: TreeArgs,
 }
 
 #[derive(Args, Debug)]

@@ -32,6 +32,10 @@ latest; others fire at once. A log of events and outputs alone is one of firings
 recorded: everything that may have fired is searched. So are transitions that a PNML file calls
 $invisible$; those may be recorded as well.
 
+Of a behaviour tree the trace has eight columns, separated by tabs: run, step, op (tick, once or
+halt), wait in ms, set (x=1;y=2), events, status of the root, blackboard; `-` for nothing. Events:
+LEAF:S (asked), LEAF~R (asked while running), LEAF=F (by its own rule), LEAF! (halted), GATE?T.
+
 Exit codes: 0 it is a run of the model; 1 it departs; 2 bad input; 3 too many states are possible to
 say so.
 
@@ -58,4 +62,9 @@ pub(crate) struct ConformArgs {
     pub(crate) max_states: u64,
     #[command(flatten)]
     pub(crate) json: Json,
+    #[command(flatten)]
+    pub(crate) tree: super::tree::TreeArgs,
+    /// Lets the timers of a behaviour tree go by the dates of the trace
+    #[arg(long, help_heading = "Behaviour trees")]
+    pub(crate) clock: bool,
 }

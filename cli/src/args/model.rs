@@ -2,6 +2,7 @@
 
 use super::Json;
 use super::check::Semantics;
+use super::tree::TreeArgs;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -32,6 +33,9 @@ Words:
   A,B       with --rounds: offers both in one round; there, +MS is a round without events
 
 Events of a system are NET.EVENT, as in `gs.mission_received`: those that no other net causes.
+
+Of a behaviour tree, words are answers to its questions, in their order: S, F, R, K of leaves, \
+T or N of gates and timers; LEAF=S says for whom one is meant.
 
 In a file or on standard input: one of these a line; lines that begin with # are left out.
 On a terminal, and with --interactive, a line can also be the number of an event, the beginning of \
@@ -89,6 +93,8 @@ pub(crate) struct ExportArgs {
     /// The file to write, in place of standard output
     #[arg(long, short, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) tree: TreeArgs,
 }
 
 #[derive(Args, Debug)]
@@ -113,6 +119,8 @@ pub(crate) struct SimulateArgs {
     pub(crate) interactive: bool,
     #[command(flatten)]
     pub(crate) json: Json,
+    #[command(flatten)]
+    pub(crate) tree: TreeArgs,
 }
 
 #[derive(Args, Debug)]
@@ -147,6 +155,8 @@ pub(crate) enum Format {
     Net,
     /// All of it as JSON; nothing is lost (.json)
     Json,
+    /// A behaviour tree as compact XML of BehaviorTree.CPP 4 (.xml)
+    Btcpp,
 }
 
 /// How a net is drawn.

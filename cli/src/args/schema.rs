@@ -34,11 +34,19 @@ pub(crate) enum SchemaName {
     Models,
     Simulate,
     Play,
+    /// The answer of `simulate` for a behaviour tree
+    SimulateTree,
     Check,
+    /// The answer of `check` for a behaviour tree
+    CheckTree,
     Statespace,
+    /// The answer of `statespace` for a behaviour tree
+    StatespaceTree,
     Estimate,
     Verify,
     Conform,
+    /// The answer of `conform` for a behaviour tree
+    ConformTree,
     Floor,
     Fmeca,
     Measure,

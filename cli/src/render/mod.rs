@@ -31,6 +31,7 @@ pub(crate) mod style;
 pub(crate) mod supervised;
 pub(crate) mod table;
 pub(crate) mod team;
+pub(crate) mod tree;
 pub(crate) mod verify;
 pub(crate) mod ways;
 

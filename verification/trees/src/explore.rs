@@ -8,9 +8,12 @@
 mod assume;
 mod cycles;
 mod facts;
+mod graph;
+mod halting;
 mod keys;
 mod minimal;
 mod pack;
+mod property;
 mod runs;
 mod unwritten;
 
@@ -18,14 +21,19 @@ use crate::machine::{Event, How, Machine, Question, Reply, Status, Stop};
 use crate::tree::{Answer, Tree};
 pub use assume::{Assumption, Assumptions, parse_assumption};
 pub use facts::{Early, Facts, Pair};
+pub use graph::End;
+use graph::{Edge, MAX_SEQUENCES, WAKES, What, code};
 use keys::{Keys, Sequences};
 use pack::Pack;
+pub use property::{Condition, Property, Refused, Verdict, check_property, parse_property};
 pub use runs::{Run, Step};
 use std::collections::{BTreeMap, VecDeque};
 
 /// How far an exploration goes.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
+    /// States between ticks.
+    pub states: usize,
     /// States and questions.
     pub nodes: usize,
     /// Bytes of the graph.
@@ -35,81 +43,7 @@ pub struct Limits {
 /// 30 million states and questions, 2 GiB.
 impl Default for Limits {
     fn default() -> Limits {
-        Limits { nodes: 30_000_000, bytes: 2 << 30 }
-    }
-}
-
-/// How a run ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum End {
-    /// The root answers: SUCCESS, FAILURE or SKIPPED.
-    Answered(Answer),
-    /// An exception, with the node that the library names.
-    Thrown(Option<usize>),
-}
-
-impl End {
-    /// Writes the end as traces have it.
-    pub fn shown(self, tree: &Tree) -> String {
-        match self {
-            End::Answered(it) => it.letter().to_string(),
-            End::Thrown(None) => "X".to_owned(),
-            End::Thrown(Some(node)) => format!("X@{}", tree.nodes[node].label),
-        }
-    }
-}
-
-/// A point of the graph.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum What {
-    State,
-    /// The node that asks.
-    Asks(usize),
-    End(End),
-}
-
-/// An edge: the reply, what happened, where to.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Edge {
-    pub(crate) target: u32,
-    /// Number of its events, 8 bits to the left of the reply, and whether the tick ends with a
-    /// wake-up.
-    rest: u32,
-}
-
-const WAKES: u32 = 0x80;
-/// Sequences of events that an edge can name.
-const MAX_SEQUENCES: u32 = 1 << 24;
-
-fn code(reply: Option<Reply>) -> u32 {
-    match reply {
-        None => 0,
-        Some(Reply::Leaf(it)) => 1 + it as u32,
-        Some(Reply::Yes) => 5,
-        Some(Reply::No) => 6,
-    }
-}
-
-impl Edge {
-    pub(crate) fn reply(self) -> Option<Reply> {
-        Some(match self.rest & 0x7f {
-            1 => Reply::Leaf(Answer::Success),
-            2 => Reply::Leaf(Answer::Failure),
-            3 => Reply::Leaf(Answer::Running),
-            4 => Reply::Leaf(Answer::Skipped),
-            5 => Reply::Yes,
-            6 => Reply::No,
-            _ => return None,
-        })
-    }
-
-    /// Returns the number of the events.
-    pub(crate) fn events(self) -> u32 {
-        self.rest >> 8
-    }
-
-    pub(crate) fn wakes(self) -> bool {
-        self.rest & WAKES != 0
+        Limits { states: usize::MAX, nodes: 30_000_000, bytes: 2 << 30 }
     }
 }
 
@@ -276,7 +210,13 @@ impl<'t> Space<'t> {
         let mut waiting = VecDeque::from([0_u32]);
         let mut work: Vec<u32> = Vec::new();
         let mut base = Vec::new();
+        let mut states = 0;
         while let Some(state) = waiting.pop_front() {
+            states += 1;
+            if states > limits.states {
+                self.complete = false;
+                return;
+            }
             work.push(state);
             while let Some(point) = work.pop() {
                 let full = self.sequences.len() >= MAX_SEQUENCES;
@@ -440,6 +380,11 @@ impl<'t> Space<'t> {
                 }
             }
         }
+    }
+
+    /// Returns why an exception was thrown, the first time.
+    pub fn cause(&self, end: End) -> Option<String> {
+        self.causes.get(&end).cloned()
     }
 
     /// Returns the events of an edge.

@@ -36,9 +36,14 @@
 pub mod conform;
 pub mod diagnostic;
 pub mod explore;
+pub mod export;
+pub mod findings;
 pub mod kinds;
 pub mod machine;
+pub mod page;
+pub mod picture;
 pub mod reader;
+pub mod replay;
 pub mod script;
 mod signature;
 pub mod tree;

@@ -5,5 +5,6 @@
 mod broken;
 mod facts;
 mod folder;
+mod found;
 mod mutants;
 mod traces;

@@ -3,7 +3,8 @@
 //! A run is fair if every action that runs ends or is halted again and again, and every gate that
 //! is asked again and again opens again and again. Conditions are never assumed to be fair.
 
-use super::{Space, What};
+use super::Space;
+use super::graph::What;
 use crate::machine::{Event, How, Reply};
 use crate::tree::Answer;
 use std::collections::{BTreeSet, VecDeque};

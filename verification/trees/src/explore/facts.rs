@@ -1,9 +1,10 @@
 //! Facts about all runs of a tree.
 
 use super::cycles::{Circle, Marks};
+use super::graph::{End, What};
 use super::runs::Run;
 use super::unwritten::Unwritten;
-use super::{End, Seen, Space, What};
+use super::{Seen, Space};
 use crate::machine::{Event, How, Reply};
 use crate::tree::Answer;
 use std::collections::BTreeMap;
@@ -41,7 +42,7 @@ pub struct Facts {
     pub edges: usize,
     /// How a run can end, and the fewest ticks.
     pub ends: BTreeMap<End, u32>,
-    /// States from which no end can be reached.
+    /// States from which no end can be reached; 0 where not all was explored.
     pub stuck: usize,
     /// Whether a fair run never ends.
     pub forever: bool,
@@ -96,7 +97,9 @@ impl Space<'_> {
             }
         }
         let can = self.can_end();
-        let stuck = (0..self.len()).filter(|it| self.is_state(*it) && !can[*it]);
+        // A state that was not gone on from may reach an end.
+        let known = self.is_complete();
+        let stuck = (0..self.len()).filter(|it| known && self.is_state(*it) && !can[*it]);
         let mut stuck: Vec<_> = stuck.map(|it| it as u32).collect();
         facts.stuck = stuck.len();
         stuck.sort_by_key(|it| self.level[*it as usize]);

@@ -77,6 +77,11 @@ impl Keys {
         hash.finish() as usize
     }
 
+    /// Compares word by word: keys are too short for a call.
+    fn is(&self, number: u32, key: &[u64]) -> bool {
+        self.get(number as usize).iter().zip(key).all(|it| it.0 == it.1)
+    }
+
     /// Returns the number of a key, and whether it is new.
     pub(crate) fn insert(&mut self, key: &[u64]) -> (u32, bool) {
         if self.len * 2 >= self.table.len() {
@@ -87,7 +92,7 @@ impl Keys {
         loop {
             match self.table[at] {
                 FREE => break,
-                it if self.get(it as usize) == key => return (it, false),
+                it if self.is(it, key) => return (it, false),
                 _ => at = (at + 1) & mask,
             }
         }

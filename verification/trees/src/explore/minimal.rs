@@ -1,7 +1,8 @@
 //! States that no sequence of ticks can tell apart, merged.
 
+use super::Space;
+use super::graph::{End, What};
 use super::keys::Map;
-use super::{End, Space, What};
 use crate::machine::Status;
 
 /// What can be seen of a point at once.
@@ -40,7 +41,7 @@ impl Space<'_> {
                 signature.push(block[point]);
                 for edge in self.out(point) {
                     let it = self.edges[edge];
-                    let reply = super::code(it.reply());
+                    let reply = super::graph::code(it.reply());
                     signature.extend([reply, it.events(), block[it.target as usize]]);
                 }
                 let next = names.len() as u32;

@@ -66,11 +66,17 @@ impl Pack {
     /// Packs a machine; `what` says whether it is a state, asks, or has ended.
     pub(super) fn store(&mut self, machine: &mut Machine, what: u32) {
         self.key.fill(0);
+        let (mut word, mut at) = (0, 0);
         for (cell, field) in &self.fields {
             let value = machine.cells[*cell as usize] as u64;
             debug_assert!(value <= field.mask, "cell {cell} holds {value}");
-            self.key[field.word as usize] |= (value & field.mask) << field.shift;
+            if field.word != at {
+                self.key[at as usize] = word;
+                (word, at) = (0, field.word);
+            }
+            word |= (value & field.mask) << field.shift;
         }
+        self.key[at as usize] = word;
         self.put(self.at, what as u64);
         self.put(self.wake, machine.wake as u64);
         if let Some(field) = self.board {

@@ -1,6 +1,7 @@
 //! Runs through the graph: shortest ones, as steps that a machine repeats.
 
-use super::{End, Space, What};
+use super::Space;
+use super::graph::{End, What};
 use crate::machine::{Event, Reply};
 
 /// One tick of a run.

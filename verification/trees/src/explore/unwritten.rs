@@ -1,6 +1,7 @@
 //! Leaves that are asked before an entry that they read was written.
 
-use super::{Space, What};
+use super::Space;
+use super::graph::What;
 use crate::machine::{How, Reply, Status};
 use crate::tree::{Answer, Kind};
 use std::collections::VecDeque;

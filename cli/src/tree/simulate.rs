@@ -1,0 +1,143 @@
+//! `cotama simulate` of a behaviour tree: each word is the answer to the next question.
+
+use super::{load, only, warn};
+use crate::answers::check::tree::{TreeSimulateAnswer, TreeTickRow};
+use crate::args::SimulateArgs;
+use crate::exit::{Exit, Failure};
+use crate::input;
+use crate::output::Screen;
+use crate::render;
+use cotama_trees::machine::{Machine, Question, Reply, Stop};
+use cotama_trees::tree::Tree;
+use std::io::IsTerminal;
+
+/// Most ticks that are played without a question.
+const QUIET: usize = 1_000;
+
+struct Game<'t> {
+    tree: &'t Tree,
+    machine: Machine<'t>,
+    ticks: Vec<TreeTickRow>,
+    stop: Option<Stop>,
+    ended: bool,
+}
+
+impl Game<'_> {
+    /// Ticks until a question, or the end of the run.
+    fn go_on(&mut self) -> Option<Question> {
+        for _ in 0..QUIET {
+            let stop = match self.stop.take() {
+                Some(stop) => stop,
+                None if self.ended => return None,
+                None => self.machine.tick(),
+            };
+            let status = match stop {
+                Stop::Asked(question) => {
+                    self.stop = Some(Stop::Asked(question));
+                    return Some(question);
+                }
+                Stop::Answered(answer) => answer.letter().to_string(),
+                Stop::Thrown(thrown) => {
+                    let of = thrown.node.map(|it| format!("@{}", self.tree.shown(it)));
+                    format!("X{}: {}", of.unwrap_or_default(), thrown.why)
+                }
+            };
+            self.ended = status != "R";
+            let events = self.machine.take_events();
+            self.ticks.push(TreeTickRow {
+                tick: self.ticks.len() + 1,
+                events: events.iter().map(|it| it.shown(self.tree)).collect(),
+                status,
+                blackboard: self.machine.blackboard(),
+            });
+        }
+        self.ended = true;
+        None
+    }
+}
+
+fn asked(tree: &Tree, question: &Question) -> String {
+    let letters: Vec<_> = question.replies.iter().map(|it| it.letter().to_string()).collect();
+    let label = tree.shown(question.node);
+    format!("{label}{} {}", question.how.sign(), letters.join(" "))
+}
+
+/// Plays a tree with answers from the command line, from standard input, or by hand.
+pub(crate) fn simulate(args: &SimulateArgs, screen: &Screen) -> Result<Exit, Failure> {
+    only(&[
+        ("--rounds", args.rounds),
+        ("--strict", args.strict),
+        ("--trace", args.trace.is_some()),
+        ("--interactive", args.interactive),
+    ])?;
+    let loaded = load(&args.model.model, &args.tree)?;
+    warn(&loaded, screen);
+    let tree = &loaded.tree;
+    let machine = Machine::new(tree);
+    let mut game = Game { tree, machine, ticks: Vec::new(), stop: None, ended: false };
+    let by_hand = args.events.is_empty() && !args.json.json && std::io::stdin().is_terminal();
+    let mut words: std::collections::VecDeque<String> = args.events.iter().cloned().collect();
+    if args.events.is_empty() && !by_hand {
+        let text = input::text("-", "a list of answers", input::SCRIPT_BYTES)?;
+        let lines = text.lines().filter(|it| !it.trim_start().starts_with('#'));
+        words.extend(lines.flat_map(str::split_whitespace).map(str::to_owned));
+    }
+    let mut shown = 0;
+    let mut waits = None;
+    while let Some(question) = game.go_on() {
+        if by_hand {
+            for row in &game.ticks[shown..] {
+                screen.print(&render::tree::tick(row))?;
+            }
+            shown = game.ticks.len();
+            screen.print(&format!("{}? ", asked(tree, &question)))?;
+        }
+        let word = match words.pop_front() {
+            Some(word) => word,
+            None if by_hand => match input::answer()? {
+                Some(line) => line,
+                None => break,
+            },
+            None => {
+                waits = Some(asked(tree, &question));
+                break;
+            }
+        };
+        // `LEAF=S` says for which question an answer is meant.
+        let (of, letter) = word.split_once('=').unwrap_or(("", &word));
+        let reply = letter.chars().next().filter(|_| letter.chars().count() == 1);
+        let reply = reply.and_then(|it| Reply::of_letter(it.to_ascii_uppercase()));
+        let is_meant = of.is_empty() || tree.find(of) == Some(question.node);
+        match reply.filter(|it| is_meant && question.replies.contains(it)) {
+            Some(reply) => game.stop = Some(game.machine.reply(reply)),
+            None if by_hand && matches!(word.as_str(), "q" | "quit") => break,
+            None if by_hand => screen.note("one of the letters, or quit"),
+            None => {
+                let message = format!("`{word}` is no answer to {}", asked(tree, &question));
+                return Err(Failure::new(message)
+                    .help("S success, F failure, R running, K skipped; T open, N closed"));
+            }
+        }
+    }
+    if let Some(word) = words.front() {
+        let message = format!("`{word}` is one answer too many: the run has ended");
+        return Err(Failure::new(message).help("leave it out"));
+    }
+    let answer = TreeSimulateAnswer {
+        schema: "cotama/simulate-tree/1",
+        model: args.model.model.clone(),
+        ticks: game.ticks,
+        asked: waits,
+    };
+    if args.json.json {
+        Screen::json(&answer)?;
+        return Ok(Exit::Success);
+    }
+    for row in &answer.ticks[shown..] {
+        screen.print(&render::tree::tick(row))?;
+    }
+    if let Some(question) = &answer.asked {
+        screen.print(&format!("asked: {question}\n"))?;
+    }
+    Ok(Exit::Success)
+}

@@ -1,0 +1,135 @@
+//! Behaviour trees through the commands on models.
+
+use crate::common::Folder;
+use crate::schemas::validate;
+use serde_json::Value;
+
+const TREE: &str = r#"<root BTCPP_format="4">
+  <BehaviorTree ID="Main">
+    <RecoveryNode number_of_retries="2">
+      <FollowPath path="{path}"/>
+      <RoundRobin><Spin/><BackUp/></RoundRobin>
+    </RecoveryNode>
+  </BehaviorTree>
+</root>
+"#;
+
+fn folder(name: &str) -> Folder {
+    let folder = Folder::new(name);
+    folder.write("tree.xml", TREE);
+    folder
+}
+
+fn row<'a>(answer: &'a Value, name: &str) -> &'a Value {
+    answer["results"].as_array().unwrap().iter().find(|it| it["name"] == name).unwrap()
+}
+
+#[test]
+fn a_lost_success_is_found_with_its_run_and_its_line() {
+    let folder = folder("trees_check");
+    let answer = folder.cotama(&["check", "tree.xml", "--json"]).json(0);
+    validate("check-tree", &answer);
+    let lost = row(&answer, "success-lost");
+    assert_eq!((&lost["verdict"], &lost["level"]), (&"false".into(), &"warning".into()));
+    assert_eq!(lost["nodes"], serde_json::json!(["BackUp", "RoundRobin@3"]));
+    assert_eq!((&lost["line"], &lost["column"]), (&5.into(), &26.into()));
+    let tick = &lost["trace"][0];
+    assert_eq!(tick["events"], serde_json::json!(["FollowPath:F", "Spin:F", "BackUp:S"]));
+    assert_eq!(tick["status"], "F");
+    assert_eq!(row(&answer, "exception")["verdict"], "true");
+    assert_eq!(folder.cotama(&["check", "tree.xml", "--deny", "warnings"]).code, Some(1));
+}
+
+#[test]
+fn own_properties_assumptions_and_exclusive_actions_decide_the_exit_code() {
+    let folder = folder("trees_own");
+    let code = |more: &[&str]| {
+        let ended = folder.cotama(&[&["check", "tree.xml"], more].concat());
+        ended.code
+    };
+    assert_eq!(code(&["--property", "AG !(Spin.running & BackUp.running)"]), Some(0));
+    assert_eq!(code(&["--property", "AF root.success"]), Some(1));
+    assert_eq!(
+        code(&["--property", "AF root.success", "--assume", "FollowPath succeeds"]),
+        Some(0)
+    );
+    assert_eq!(code(&["--exclusive", "Spin,BackUp"]), Some(0));
+    assert_eq!(code(&["--max-states", "2"]), Some(3));
+    for (more, said) in [
+        (["--property", "AG Spn.running"], "no node Spn; did you mean Spin?"),
+        (["--assume", "Spn succeeds"], "no leaf Spn; did you mean Spin?"),
+        (["--exclusive", "Spn"], "--exclusive: no action Spn"),
+        (["--engine", "explicit"], "--engine is not for behaviour trees"),
+    ] {
+        let ended = folder.cotama(&[&["check", "tree.xml"], &more[..]].concat());
+        assert_eq!(ended.code, Some(2), "{more:?}");
+        assert!(ended.stderr.contains(said), "{}", ended.stderr);
+    }
+    let ended = folder.cotama(&["check", "door", "--assume", "a succeeds"]);
+    assert!(ended.stderr.contains("--assume is for behaviour trees"), "{}", ended.stderr);
+}
+
+#[test]
+fn a_page_and_a_report_are_written() {
+    let folder = folder("trees_files");
+    let line = ["check", "tree.xml", "--html", "pages", "--sarif", "it.sarif"];
+    assert_eq!(folder.cotama(&line).code, Some(0));
+    let page = folder.read("pages/index.html");
+    assert!(page.contains("SUCCESS of BackUp is lost") && page.contains("data-frames"));
+    assert!(!page.contains("src=") && !page.contains("http"), "nothing comes from elsewhere");
+    let log: Value = serde_json::from_str(&folder.read("it.sarif")).unwrap();
+    let lost = &log["runs"][0]["results"][0];
+    assert_eq!(lost["ruleId"], "success-lost");
+    assert_eq!(lost["locations"][0]["physicalLocation"]["region"]["startLine"], 5);
+}
+
+#[test]
+fn a_trace_is_accepted_or_departs_in_a_row() {
+    let folder = folder("trees_conform");
+    let rows =
+        "1\t1\ttick\t0\t-\tFollowPath:R\tR\tpath=?\n1\t2\ttick\t0\t-\tFollowPath~S\tS\tpath=?\n";
+    folder.write("run.tsv", rows);
+    let answer = folder.cotama(&["conform", "tree.xml", "run.tsv", "--json"]).json(0);
+    validate("conform-tree", &answer);
+    assert_eq!((&answer["runs"], &answer["rows"]), (&1.into(), &2.into()));
+    folder.write("wrong.tsv", rows.replace("~S\tS", "~S\tF"));
+    let answer = folder.cotama(&["conform", "tree.xml", "wrong.tsv", "--json"]).json(1);
+    let departs = &answer["departs"];
+    assert_eq!((&departs["line"], &departs["column"]), (&2.into(), &"status".into()));
+    assert_eq!(departs["allowed"], "S");
+}
+
+#[test]
+fn a_tree_is_played_counted_and_written() {
+    let folder = folder("trees_rest");
+    let answer = folder.cotama(&["simulate", "tree.xml", "F", "Spin=S", "R", "--json"]).json(0);
+    validate("simulate-tree", &answer);
+    assert_eq!(answer["ticks"][0]["status"], "R");
+    assert_eq!(answer["asked"], "FollowPath~ S F R K");
+    let answer = folder.cotama(&["statespace", "tree.xml", "--json"]).json(0);
+    validate("statespace-tree", &answer);
+    assert_eq!((&answer["states"], &answer["minimal"]), (&6.into(), &5.into()));
+    for format in ["svg", "dot", "mermaid", "btcpp", "json"] {
+        let ended = folder.cotama(&["export", "tree.xml", "--format", format]);
+        assert_eq!(ended.code, Some(0), "{format}: {}", ended.stderr);
+        assert!(ended.stdout.contains("BackUp"), "{format}");
+    }
+    assert_eq!(folder.cotama(&["export", "tree.xml", "--format", "pnml"]).code, Some(2));
+    assert_eq!(folder.cotama(&["export", "door", "--format", "btcpp"]).code, Some(2));
+}
+
+#[test]
+fn a_wrong_tree_is_refused_at_its_place() {
+    let folder = folder("trees_wrong");
+    folder.write("wrong.xml", TREE.replace("<Spin/>", "<Spinn/>"));
+    let answer = folder.cotama(&["check", "wrong.xml", "--json"]).json(2);
+    assert_eq!(answer["message"], "unknown node Spinn: neither built in nor described");
+    assert_eq!((&answer["line"], &answer["column"]), (&5.into(), &19.into()));
+    folder.write("leaves.tsv", "Spinn\tstateful\n");
+    let line = ["check", "wrong.xml", "--leaves", "leaves.tsv"];
+    assert_eq!(folder.cotama(&line).code, Some(0));
+    folder.write("throws.xml", TREE.replace("<BackUp/></RoundRobin>", "</RoundRobin><BackUp/>"));
+    let ended = folder.cotama(&["check", "throws.xml"]);
+    assert_eq!(ended.code, Some(2));
+    assert!(ended.stderr.contains("RecoveryNode has 3 children, and needs 2"), "{}", ended.stderr);
+}
