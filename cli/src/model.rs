@@ -106,6 +106,8 @@ pub(crate) struct Owned {
     pub(crate) system: OwnedSystem,
     /// Requirements of a robot's supervisors.
     pub(crate) requirements: Vec<RobotRequirement>,
+    /// The robot, and the objectives of its mission.
+    pub(crate) robot: Option<(Robot, Vec<Step>)>,
 }
 
 impl From<&Robot> for Found {
@@ -119,7 +121,8 @@ impl Found {
     fn under(robot: &Robot, steps: &[Step]) -> Self {
         let system = robots::supervisors::of_mission(robot, steps);
         let requirements = robots::requirements::of_mission(robot, steps);
-        Self::Owned(Box::new(Owned { system, requirements }))
+        let robot = Some((robot.clone(), steps.to_vec()));
+        Self::Owned(Box::new(Owned { system, requirements, robot }))
     }
 
     /// The supervisors of a mission's robot, if it has one.
@@ -130,7 +133,7 @@ impl Found {
 
 impl From<OwnedSystem> for Found {
     fn from(system: OwnedSystem) -> Self {
-        Self::Owned(Box::new(Owned { system, requirements: Vec::new() }))
+        Self::Owned(Box::new(Owned { system, requirements: Vec::new(), robot: None }))
     }
 }
 

@@ -3,12 +3,13 @@
 use crate::answers::model::PlayAnswer;
 use crate::args::PlayArgs;
 use crate::exit::{Exit, Failure};
-use crate::model;
+use crate::model::{self, Found};
 use crate::names::quoted;
 use crate::output::{self, Screen};
 use crate::render::style::NAME;
 use crate::render::visible;
 use crate::simulate::not_played;
+use cotama_playground::Subject;
 use std::path::{Path, PathBuf};
 
 /// Writes the page.
@@ -16,7 +17,14 @@ pub(crate) fn play(args: &PlayArgs, screen: &Screen) -> Result<Exit, Failure> {
     let name = &args.model.model;
     let path = args.output.clone().unwrap_or_else(|| beside(name));
     output::place(&path)?;
-    let page = model::with_system(name, |it, _| cotama_playground::write(name, it))?;
+    let found = model::find(name)?;
+    let robot = match &found {
+        Found::Owned(it) => it.robot.clone(),
+        _ => None,
+    };
+    let robot = robot.as_ref().map(|(robot, steps)| (robot, steps.as_slice()));
+    let subject = Subject { command: name, robot };
+    let page = model::with_found(name, found, |it, _| cotama_playground::write(&subject, it))?;
     let page = page.map_err(|why| not_played(&why))?;
     output::file(&path, page.as_bytes())?;
     let file = path.display().to_string();

@@ -57,6 +57,29 @@ class Module:
         status = self.call("tell", self.page, number, at % 2**32, at // 2**32)
         return self.records() if status == 0 else status
 
+    def employ(self):
+        tables = base64.b64decode(self.data["robot"]["tables"])
+        self.memory.write(self.store, tables, self.call("tables", self.page, len(tables)))
+        if self.call("employ", self.page) != 0:
+            raise RuntimeError(self.text())
+
+    def period(self, up, works, said, stands, at):
+        """A period of the decider: the event that it told, and the records."""
+        halves = [it for number in (up, works) for it in (number % 2**32, number // 2**32)]
+        told = 0 if said is None else said[1] * 256 + said[2] + 1
+        status = self.call("period", self.page, *halves, told, int(stands), at % 2**32, at // 2**32)
+        assert status == 0, status
+        words, data = self.words(), self.data
+        listed(words)
+        event = next(words) - 1
+        for _ in range(4):
+            next(words)
+        return event, [self.record(words, data) for _ in range(next(words))]
+
+    def pilot(self):
+        self.call("pilot", self.page)
+        return list(self.words())
+
     def why(self, event, at):
         self.call("why", self.page, event, at % 2**32, at // 2**32)
         return self.text()
@@ -132,6 +155,33 @@ def drawn(rng, data, module, rounds):
         assert not isinstance(told, int), (told, words)
         words.append(word(name, at, now))
         records, now = records + told, at
+    return words, records, module.state(now), now
+
+
+def driven(rng, data, module):
+    """A run of a robot: failures and flags that come and go, and what is said to it."""
+    records, robot = module.start(True), data["robot"]
+    module.employ()
+    now, words, flags, failures = 0, [], set(), set()
+    says = [it for it in robot["says"] if it[1] not in (4, 5)]
+    for at in range(100, 100 * rng.randint(2, 40), 100):
+        if rng.random() < 0.3:
+            failures ^= {rng.randrange(len(robot["failures"]))}
+        if rng.random() < 0.1:
+            flags ^= {rng.randrange(len(robot["flags"]))}
+        on = [robot["failures"][it] for it in failures]
+        up = sum(1 << it for it in flags.union(*(it["flags"] for it in on)))
+        works = 2**64 - 1
+        for it in on:
+            works &= it["works"][0] | it["works"][1] << 32
+        usable = [it for it in says if module.state(at)["prospects"][it[0]][0] == 0]
+        said = rng.choice(usable) if usable and rng.random() < 0.5 else None
+        state = module.pilot()
+        event, more = module.period(up, works, said, state[9] == 0, at)
+        assert module.pilot()[-1] == 1, "the decider is elsewhere"
+        name = None if event < 0 else data["events"][event][0]
+        words.append(word(name, at, now))
+        records, now = records + more, at
     return words, records, module.state(now), now
 
 
@@ -212,7 +262,10 @@ def main():
         rounds = data["system"] and rng.random() < 0.5
         # A store of its own: a page keeps its memory.
         it = Module((wasmtime.Store(engine), module), data)
-        words, mine, state, now = drawn(rng, data, it, rounds)
+        by_flags = data["robot"] and rng.random() < 0.5
+        rounds = rounds or bool(by_flags)
+        run = driven(rng, data, it) if by_flags else drawn(rng, data, it, rounds)
+        words, mine, state, now = run
         if not words:
             continue
         try:

@@ -78,7 +78,10 @@ class Engine {
   }
 
   records() {
-    const from = this.words();
+    return this.recordsOf(this.words());
+  }
+
+  recordsOf(from) {
     const all = [];
     for (let left = from.next(); left > 0; left -= 1) {
       all.push({

@@ -4,6 +4,16 @@
 /** The largest file that is read, in bytes. */
 const MOST_BYTES = 32 << 20;
 
+/** The answer of `cotama check --json` in a text, if it is one. */
+function answerOf(text) {
+  try {
+    const answer = JSON.parse(text);
+    return answer.schema === "cotama/check/1" ? answer : null;
+  } catch (_) {
+    return null;
+  }
+}
+
 /** The runs in a text: each with a title, its steps, and what fired, by name. */
 function runsOf(data, text, period) {
   let whole = null;
@@ -31,11 +41,8 @@ function eventNamed(data, name) {
 
 function checkedRuns(data, answer, period) {
   const with_run = answer.results.filter((it) => it.trace && it.trace.length > 0);
-  if (with_run.length === 0) {
-    throw new Error("no property in it has a run to show");
-  }
   return with_run.map((it) => {
-    const title = `${it.verdict}: ${it.sentence || it.name}`;
+    const title = `${it.verdict}: ${(it.sentence || it.name).replace(/\.$/, "")}`;
     return answer.semantics === "rounds"
       ? { title, ...inRounds(data, it.trace, period || 100) }
       : { title, ...oneByOne(data, it.trace) };

@@ -6,14 +6,20 @@ const MOST_IN_COMMAND = 60;
 
 /** The word of a step after this time. */
 function word(data, step, now, encode) {
+  const toggles = (step.toggles || []).map((it) => `!${it}`).join("");
   if (step.event === null) {
-    return `+${step.at - now}`;
+    return `+${step.at - now}${toggles}`;
   }
   const name = data.events[step.event][0];
   // Of two events of one name the first has it.
   const first = data.events.findIndex((it) => it[0] === name) === step.event;
   const said = first ? encode(name) : `:${step.event}`;
-  return step.at === now ? said : `${said}@${step.at}`;
+  return (step.at === now ? said : `${said}@${step.at}`) + toggles;
+}
+
+/** A name in a link, in which `!` comes before what is switched. */
+function inLink(name) {
+  return encodeURIComponent(name).replace(/!/g, "%21");
 }
 
 function wordsOf(data, steps, encode) {
@@ -30,7 +36,7 @@ function linkOf(data, steps, period) {
   if (steps.length > MOST_IN_LINK) {
     return null;
   }
-  const words = wordsOf(data, steps, encodeURIComponent).join(",");
+  const words = wordsOf(data, steps, inLink).join(",");
   return (period > 0 ? `rounds=${period}&` : "") + (words ? `run=${words}` : "");
 }
 
@@ -49,7 +55,12 @@ function ofLink(data, link) {
   return { period: known ? period : 0, steps, is: said.has("rounds") || said.has("run") };
 }
 
-function ofWord(data, said, now) {
+function ofWord(data, whole, now) {
+  const [said, ...toggles] = whole.split("!");
+  return { ...plainWord(data, said, now), ...(toggles.length > 0 ? { toggles } : {}) };
+}
+
+function plainWord(data, said, now) {
   const wait = /^\+(\d{1,15})$/.exec(said);
   if (wait) {
     return { event: null, at: now + Number(wait[1]) };
@@ -83,7 +94,8 @@ function commandOf(data, steps, period) {
     return `cotama simulate ${quoted(data.command)} ... # ${so_many}`;
   }
   // The program passes time by itself in an event; in rounds a wait is a round too.
-  const words = wordsOf(data, steps, (it) => it).map(quoted);
+  const plain = steps.map(({ event, at }) => ({ event, at }));
+  const words = wordsOf(data, plain, (it) => it).map(quoted);
   return ["cotama simulate", quoted(data.command), ...(period > 0 ? ["--rounds"] : []), ...words]
     .join(" ");
 }

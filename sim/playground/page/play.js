@@ -14,6 +14,7 @@ class Play {
     this.events = new Events(data, (event) => this.tell(event));
     this.marking = new Marking(data);
     this.log = new Log(data, (at) => this.go(at));
+    this.verdicts = new Verdicts(data);
     this.controls();
   }
 
@@ -64,7 +65,7 @@ class Play {
       }
     });
     window.addEventListener("hashchange", () => {
-      if (location.hash.slice(1) !== this.linked) {
+      if (location.hash.slice(1) !== this.address) {
         this.attempt(() => this.follow());
       }
     });
@@ -162,11 +163,11 @@ class Play {
   play(run) {
     this.restart(run.period);
     let all = true;
-    for (const { event, at } of run.steps) {
+    for (const { event, at, toggles } of run.steps) {
       const next = at === null ? this.engine.state(0).next : null;
       const due = next ? next.at : at;
       const now = this.now();
-      all = this.step(event, due === null ? now : Math.max(due, now), "");
+      all = this.step(event, due === null ? now : Math.max(due, now), "", toggles);
       if (!all) {
         break;
       }
@@ -201,11 +202,21 @@ class Play {
       if (file.size > MOST_BYTES) {
         throw new Error("the file is larger than 32 MiB");
       }
-      this.found = runsOf(this.data, await file.text(), this.run.period);
+      const text = await file.text();
+      const answer = answerOf(text);
+      if (answer) {
+        this.verdicts.load(answer);
+        this.show();
+      }
+      this.found = runsOf(this.data, text, this.run.period);
       const options = this.found.map((it, at) => new Option(visible(it.title), String(at)));
       byId("found").replaceChildren(...options);
       byId("found").hidden = this.found.length < 2;
-      this.play(this.found[0]);
+      if (this.found.length > 0) {
+        this.play(this.found[0]);
+      } else {
+        this.say("Loaded: what was checked. No property in it has a run to show.");
+      }
     });
     byId("file").value = "";
   }
@@ -229,13 +240,13 @@ class Play {
   }
 
   copy() {
-    const link = linkOf(this.data, this.run.steps.slice(0, this.run.at), this.run.period);
+    const link = linkOf(this.data, this.linked(), this.run.period);
     if (link === null) {
       this.say("The run is too long for a link: save the recording.");
       return;
     }
     location.replace(`#${link}`);
-    this.linked = location.hash.slice(1);
+    this.address = location.hash.slice(1);
     const copied = navigator.clipboard
       ? navigator.clipboard.writeText(location.href)
       : Promise.reject(new Error("no clipboard"));
@@ -256,6 +267,7 @@ class Play {
     this.events.show(state);
     this.marking.show(state);
     this.log.show(run);
+    this.verdicts.show(state, records);
     byId("now").textContent = seconds(state.now);
     byId("where").max = run.steps.length;
     byId("where").value = run.at;
@@ -283,31 +295,14 @@ class Play {
     this.later = setTimeout(() => this.link(), LINK_AFTER);
   }
 
+  /** The steps that a link holds. */
+  linked() {
+    return this.run.steps.slice(0, this.run.at);
+  }
+
   /** Lets the address follow the run. */
   link() {
-    const link = linkOf(this.data, this.run.steps.slice(0, this.run.at), this.run.period);
-    this.linked = link || "";
-    history.replaceState(null, "", `#${this.linked}`);
+    this.address = linkOf(this.data, this.linked(), this.run.period) || "";
+    history.replaceState(null, "", `#${this.address}`);
   }
 }
-
-function broken(error) {
-  const it = byId("broken");
-  it.textContent = `This page cannot be played: ${error.message}.`;
-  it.hidden = false;
-}
-
-async function main() {
-  const data = JSON.parse(byId("data").textContent);
-  const period = data.mail ? 100 : 0;
-  const play = new Play(data, await Engine.of(data.module, data.model, period), period);
-  byId("controls").hidden = false;
-  play.show();
-  play.say("Tell it an event: in the list, or in a drawing.");
-  if (location.hash.length > 1) {
-    await play.attempt(() => play.follow());
-  }
-  document.documentElement.dataset.ready = String(Math.round(performance.now()));
-}
-
-main().catch(broken);

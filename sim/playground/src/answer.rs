@@ -8,7 +8,7 @@ use cotama_play::{Reason, Record};
 
 /// Returns what happened: how many records, and of each its time, whether it is a round, and lists
 /// with their lengths: events, transitions fired, pairs of an unused event and its
-/// [reason](reason), outputs, pairs of a place and its tokens.
+/// [`reason`], outputs, pairs of a place and its tokens.
 pub fn records(all: &[Record]) -> Vec<u32> {
     let mut out = Vec::from([all.len() as u32]);
     for it in all {
@@ -26,7 +26,7 @@ pub fn records(all: &[Record]) -> Vec<u32> {
 /// Returns the state: the steps taken, those of the run, the time; whether something waits in a
 /// mailbox; whether something happens next by itself, when, and which transition fires first; the
 /// tokens of all places; and of each event, told at the time of the halves `low` and `high`, 0 and
-/// the transition that would use it, or the [reason](reason) why none would and 0.
+/// the transition that would use it, or the [`reason`] why none would and 0.
 pub fn state(board: &Board, low: u32, high: u32) -> Vec<u32> {
     let session = board.session();
     let mut out = Vec::from([board.at() as u32, board.steps() as u32]);
@@ -65,7 +65,7 @@ fn put(out: &mut Vec<u32>, Millis(ms): Millis) {
 }
 
 /// A list of items of the same size, after its length in items.
-fn list<const N: usize>(out: &mut Vec<u32>, items: impl Iterator<Item = [u32; N]>) {
+pub(super) fn list<const N: usize>(out: &mut Vec<u32>, items: impl Iterator<Item = [u32; N]>) {
     let at = out.len();
     out.push(0);
     items.for_each(|it| out.extend(it));

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use core::fmt;
 use cotama_core::checksum::crc32;
 use cotama_core::net::owned::{OwnedIgnored, OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition};
-use cotama_core::net::{Arc, EventId, OutputId, PlaceId, Role, Within};
+use cotama_core::net::{Arc, EventId, OutputId, PlaceId, Role, TransitionId, Within};
 use cotama_core::system::owned::OwnedSystem;
 use cotama_core::system::{Binding, Clear, Delivery, Link, Of, System, Target};
 
@@ -38,9 +38,20 @@ impl core::error::Error for Damaged {}
 pub fn encode(system: &System<'_>) -> Vec<u8> {
     let mut to = Vec::from(MAGIC);
     OwnedSystem::from(system).write(&mut to);
-    let sum = crc32(&to);
-    to.extend(sum.to_le_bytes());
-    to
+    closed(to)
+}
+
+/// Bytes with their checksum.
+pub(super) fn closed(mut bytes: Vec<u8>) -> Vec<u8> {
+    let sum = crc32(&bytes);
+    bytes.extend(sum.to_le_bytes());
+    bytes
+}
+
+/// The bytes before a checksum that is theirs.
+pub(super) fn opened(bytes: &[u8]) -> Result<&[u8], Damaged> {
+    let (body, sum) = bytes.split_last_chunk::<4>().ok_or(Damaged)?;
+    if crc32(body) == u32::from_le_bytes(*sum) { Ok(body) } else { Err(Damaged) }
 }
 
 /// Reads a system.
@@ -49,17 +60,13 @@ pub fn encode(system: &System<'_>) -> Vec<u8> {
 /// [`Damaged`] when they are not what [`encode`] wrote. That its nets fit together is found when
 /// they are played.
 pub fn decode(bytes: &[u8]) -> Result<OwnedSystem, Damaged> {
-    let (body, sum) = bytes.split_last_chunk::<4>().ok_or(Damaged)?;
-    if crc32(body) != u32::from_le_bytes(*sum) {
-        return Err(Damaged);
-    }
-    let mut from = body.strip_prefix(MAGIC).ok_or(Damaged)?;
+    let mut from = opened(bytes)?.strip_prefix(MAGIC).ok_or(Damaged)?;
     let system = OwnedSystem::read(&mut from)?;
     if from.is_empty() { Ok(system) } else { Err(Damaged) }
 }
 
 /// Something that is written and read again.
-trait Coded: Sized {
+pub(super) trait Coded: Sized {
     fn write(&self, to: &mut Vec<u8>);
     fn read(from: &mut &[u8]) -> Result<Self, Damaged>;
 }
@@ -106,6 +113,42 @@ impl Coded for u16 {
 
     fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
         u32::read(from)?.try_into().map_err(|_| Damaged)
+    }
+}
+
+impl Coded for u64 {
+    fn write(&self, to: &mut Vec<u8>) {
+        (*self as u32).write(to);
+        ((self >> 32) as u32).write(to);
+    }
+
+    fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
+        let (low, high): (u32, u32) = Coded::read(from)?;
+        Ok(Self::from(high) << 32 | Self::from(low))
+    }
+}
+
+impl Coded for bool {
+    fn write(&self, to: &mut Vec<u8>) {
+        to.push(u8::from(*self));
+    }
+
+    fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
+        match u8::read(from)? {
+            0 => Ok(false),
+            1 => Ok(true),
+            _ => Err(Damaged),
+        }
+    }
+}
+
+impl<T: Coded> Coded for [T; 2] {
+    fn write(&self, to: &mut Vec<u8>) {
+        self.iter().for_each(|it| it.write(to));
+    }
+
+    fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
+        Ok([T::read(from)?, T::read(from)?])
     }
 }
 
@@ -202,7 +245,10 @@ macro_rules! fields {
     };
 }
 
+pub(super) use fields;
+
 fields!(PlaceId { 0 });
+fields!(TransitionId { 0 });
 fields!(EventId { 0 });
 fields!(OutputId { 0 });
 fields!(Arc { place, weight });

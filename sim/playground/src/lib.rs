@@ -8,7 +8,9 @@
 //! | --- | --- |
 //! | [`answer`] | records and states as numbers, as a page reads them |
 //! | [`Board`] | a run that goes forth and back |
+//! | [`Pilot`] | the decider of a robot beside its board |
 //! | [`encode`], [`decode`] | a system as bytes |
+//! | [`encode_tables`], [`decode_tables`] | the tables of a decider as bytes |
 //! | `write` | the page, with feature `page` |
 #![no_std]
 #![cfg_attr(kani, allow(clippy::pedantic))]
@@ -22,8 +24,14 @@ mod board;
 mod coded;
 #[cfg(feature = "page")]
 mod page;
+mod pilot;
+#[cfg(feature = "page")]
+mod robot;
+mod tables;
 
 pub use board::{Board, MOST_STEPS, Refused};
 pub use coded::{Damaged, decode, encode};
 #[cfg(feature = "page")]
-pub use page::write;
+pub use page::{Subject, write};
+pub use pilot::{Pilot, Seen};
+pub use tables::{decode_tables, encode_tables};

@@ -12,6 +12,8 @@ use cotama_core::units::Millis;
 use cotama_drawing::figure::Style;
 use cotama_drawing::page::{THEME, write as framed};
 use cotama_drawing::svg::{Highlight, Part, STYLE, part, parts};
+use cotama_models::robots::Robot;
+use cotama_models::robots::supervisors::Step;
 use cotama_play::{NotPlayed, Numbered};
 use serde_json::{Value, json};
 
@@ -21,36 +23,51 @@ const MODULE: &[u8] = include_bytes!("../module/module.wasm");
 const LARGEST: usize = 500;
 
 const STYLES: [&str; 3] = [THEME, STYLE, include_str!("../page/page.css")];
-const SCRIPTS: [&str; 7] = [
+const SCRIPTS: [&str; 11] = [
     include_str!("../page/engine.js"),
     include_str!("../page/elements.js"),
     include_str!("../page/drawing.js"),
     include_str!("../page/link.js"),
     include_str!("../page/files.js"),
     include_str!("../page/lists.js"),
+    include_str!("../page/verdicts.js"),
     include_str!("../page/play.js"),
+    include_str!("../page/switches.js"),
+    include_str!("../page/robot.js"),
+    include_str!("../page/main.js"),
 ];
 
-/// Writes the page of a system, or of a net alone; `command` is the name that the program knows it
-/// by. No name in it can do anything: they reach the page as text and as JSON.
+/// A model to be played.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'s> {
+    /// The name that the program knows it by.
+    pub command: &'s str,
+    /// The robot whose supervisors they are, with the objectives of its mission.
+    pub robot: Option<(&'s Robot, &'s [Step])>,
+}
+
+/// Writes the page of a system, or of a net alone. No name in it can do anything: they reach the
+/// page as text and as JSON.
 ///
 /// ```
 /// use cotama_core::system::{Component, System};
 /// use cotama_models::nets::door;
-/// let page = cotama_playground::write("door", &System::alone(&[Component::alone(&door::NET)]));
+/// use cotama_playground::{Subject, write};
+/// let door = Subject { command: "door", robot: None };
+/// let page = write(&door, &System::alone(&[Component::alone(&door::NET)]));
 /// assert!(page.unwrap().starts_with("<!DOCTYPE html>"));
 /// ```
 ///
 /// # Errors
 /// Why it cannot be played.
-pub fn write(command: &str, system: &System<'_>) -> Result<String, NotPlayed> {
+pub fn write(subject: &Subject<'_>, system: &System<'_>) -> Result<String, NotPlayed> {
     let numbered = Numbered::of(system);
     numbered.play(Millis(0), &mut |_, _| ())?;
     let by_name = numbered.is_plain();
     let numbered = if by_name { numbered.choosing(|_| true, Millis(0)) } else { numbered };
     let drawings: Vec<Option<Part>> =
         system.components.iter().enumerate().map(|(at, it)| drawn(it.net, at)).collect();
-    let data = data(command, system, &numbered, by_name, &drawings);
+    let data = data(subject, system, &numbered, by_name, &drawings);
     // In JSON a `<` stands in texts alone, where its code means the same; so no text ends a script.
     let data = json_text(&data.to_string()).to_string().replace('<', "\\u003c");
     let mut body = format!("<main class=\"play\">\n<h1>{}</h1>\n", markup(system.name));
@@ -106,7 +123,7 @@ fn section(at: usize, component: &Component<'_>, drawing: Option<&Part>) -> Stri
 }
 
 fn data(
-    command: &str,
+    subject: &Subject<'_>,
     system: &System<'_>,
     numbered: &Numbered,
     by_name: bool,
@@ -134,7 +151,8 @@ fn data(
         json!([numbered.transition(TransitionId(id)), event, cause])
     });
     json!({
-        "command": command,
+        "command": subject.command,
+        "robot": subject.robot.map(|(robot, steps)| super::robot::data(robot, steps, numbered)),
         "name": system.name,
         "system": numbered.is_system(),
         "mail": system.links.iter().any(|it| matches!(it.delivery, Delivery::Mail { .. })),
@@ -189,7 +207,7 @@ fn said(system: &System<'_>, link: &Link) -> Option<String> {
 }
 
 /// Bytes in letters, for a text (RFC 4648, section 4).
-fn base64(bytes: &[u8]) -> String {
+pub(super) fn base64(bytes: &[u8]) -> String {
     const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for chunk in bytes.chunks(3) {

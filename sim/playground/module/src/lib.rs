@@ -1,8 +1,8 @@
 //! The module in a page of `cotama play`: `cotama-playground` behind functions that a script calls.
 //!
-//! A page makes one [`Page`] for each model, writes the model into [`input`], [`load`]s it, and
-//! then [`tell`]s, goes ([`go`]) and asks ([`state`], [`why`]). Answers stand in [`words`] and
-//! [`text`] until the next call. A script has the handle alone: no function takes an address that
+//! A page makes one `Page` for each model, writes the model into its `input`, `load`s it, and then
+//! `tell`s, goes (`go`) and asks (`state`, `why`). Answers stand in `words` and `text` until the
+//! next call. A script has the handle alone: no function takes an address that
 //! a script makes up, but for that. There is one thread.
 //!
 //! All unsafe code of the page is in this crate.
@@ -17,12 +17,14 @@ use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
-use cotama_playground::{Board, Refused, answer};
+use cotama_playground::{Board, Pilot, Refused, answer};
 
 /// A model in play, with the last answer.
 pub struct Page {
     input: Vec<u8>,
     board: Option<Board>,
+    tables: Vec<u8>,
+    pilot: Option<Pilot>,
     words: Vec<u32>,
     text: String,
 }
@@ -30,7 +32,14 @@ pub struct Page {
 /// A page whose input has this many bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn open(length: usize) -> *mut Page {
-    let page = Page { input: vec![0; length], board: None, words: vec![], text: String::new() };
+    let page = Page {
+        input: vec![0; length],
+        board: None,
+        tables: vec![],
+        pilot: None,
+        words: vec![],
+        text: String::new(),
+    };
     Box::into_raw(Box::new(page))
 }
 
@@ -68,16 +77,81 @@ pub extern "C" fn tell(page: &mut Page, event: u32, low: u32, high: u32) -> u32 
             page.words = answer::records(&records);
             0
         }
-        Err(Refused::Endless) => 1,
-        Err(Refused::Full) => 2,
-        Err(Refused::Unknown) => 3,
+        Err(refused) => number(refused),
     }
+}
+
+fn number(refused: Refused) -> u32 {
+    match refused {
+        Refused::Endless => 1,
+        Refused::Full => 2,
+        Refused::Unknown => 3,
+    }
+}
+
+/// So many bytes for the tables of a decider, to be written.
+#[unsafe(no_mangle)]
+pub extern "C" fn tables(page: &mut Page, length: usize) -> *mut u8 {
+    page.tables = vec![0; length];
+    page.tables.as_mut_ptr()
+}
+
+/// Sets the decider of these tables beside the supervisors that were loaded. Returns 0; or 1, and
+/// why not, as a text.
+#[unsafe(no_mangle)]
+pub extern "C" fn employ(page: &mut Page) -> u32 {
+    match Pilot::of(&page.tables, &page.input) {
+        Ok(pilot) => {
+            page.pilot = Some(pilot);
+            0
+        }
+        Err(why) => {
+            page.text = why;
+            1
+        }
+    }
+}
+
+/// A period of the decider, in place of `tell`: flags that are up, modules that work, what is
+/// said (kind times 256, and number, and 1; 0 for nothing), whether the robot stands. Returns as
+/// `tell` does, and the account of the period.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments, reason = "a script passes numbers of 32 bits")]
+pub extern "C" fn period(
+    page: &mut Page,
+    up_low: u32,
+    up_high: u32,
+    works_low: u32,
+    works_high: u32,
+    said: u32,
+    stands: u32,
+    low: u32,
+    high: u32,
+) -> u32 {
+    let (Some(board), Some(pilot)) = (&mut page.board, &mut page.pilot) else { return 3 };
+    let halves = |low: u32, high: u32| u64::from(high) << 32 | u64::from(low);
+    let (up, works) = (halves(up_low, up_high), halves(works_low, works_high));
+    match pilot.period_number(board, [up, works, halves(low, high)], said, stands != 0) {
+        Ok(words) => {
+            page.words = words;
+            0
+        }
+        Err(refused) => number(refused),
+    }
+}
+
+/// Answers where the robot is, and what is requested of it.
+#[unsafe(no_mangle)]
+pub extern "C" fn pilot(page: &mut Page) {
+    let state = page.pilot.as_ref().zip(page.board.as_ref()).map(|(it, board)| it.state(board));
+    page.words = state.unwrap_or_default();
 }
 
 /// Goes to after so many steps.
 #[unsafe(no_mangle)]
 pub extern "C" fn go(page: &mut Page, to: usize) {
     page.board.iter_mut().for_each(|it| it.go(to));
+    page.pilot.iter_mut().for_each(|it| it.go(to));
 }
 
 /// Answers with the state, and what would use events that are told at this time.
