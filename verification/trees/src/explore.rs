@@ -79,6 +79,8 @@ pub struct Space<'t> {
     /// Why exceptions were thrown, by end, the first time.
     pub(crate) causes: BTreeMap<End, String>,
     complete: bool,
+    /// Ends by their codes, where nothing is watched.
+    ends: Vec<Option<u32>>,
     /// Actions, and which pairs of them were seen, to run and to start.
     actions: Vec<usize>,
     met: Vec<[bool; 2]>,
@@ -110,7 +112,8 @@ impl<'t> Space<'t> {
             machine.layout.widths.push(3);
         }
         assumptions.reserve(&mut machine);
-        let pack = Pack::of(tree, &machine.layout);
+        let mut pack = Pack::of(tree, &machine.layout);
+        pack.watches = !watched.is_empty();
         let nodes = tree.nodes.iter().enumerate();
         let actions: Vec<_> = nodes.filter(|it| it.1.is_action()).map(|it| it.0).collect();
         let mut space = Space {
@@ -131,6 +134,7 @@ impl<'t> Space<'t> {
             overlap: BTreeMap::new(),
             causes: BTreeMap::new(),
             complete: true,
+            ends: Vec::new(),
             met: vec![[false; 2]; actions.len() * actions.len()],
             actions,
         };
@@ -219,7 +223,7 @@ impl<'t> Space<'t> {
             }
             work.push(state);
             while let Some(point) = work.pop() {
-                let full = self.sequences.len() >= MAX_SEQUENCES;
+                let full = self.sequences.len() >= MAX_SEQUENCES || self.pack.overflows;
                 if self.len() > limits.nodes || self.bytes() > limits.bytes || full {
                     self.complete = false;
                     return;
@@ -300,15 +304,26 @@ impl<'t> Space<'t> {
         for (child, node) in std::mem::take(&mut self.machine.lost) {
             self.lost.entry((child as usize, node as usize)).or_insert(seen);
         }
-        if what > asks {
-            self.pack.leave(&mut self.machine);
-        }
-        let wake = if what == 0 || what > asks { false } else { self.machine.wake };
-        self.machine.wake = wake;
-        self.pack.store(&mut self.machine, what);
         let events = self.sequences.number(&self.machine.events);
-        let via = (from as u32, self.edges.len() as u32);
-        let (target, new) = self.add(what, via, level);
+        // Ends are few, and met by a third of all edges.
+        let end = (what > asks).then(|| (what - asks) as usize);
+        let known = end.and_then(|it| self.ends.get(it).copied().flatten());
+        let (target, new) = if let Some(known) = known {
+            (known, false)
+        } else {
+            if what > asks {
+                self.pack.leave(&mut self.machine);
+            }
+            let wake = what != 0 && what <= asks && self.machine.wake;
+            self.machine.wake = wake;
+            self.pack.store(&mut self.machine, what);
+            let via = (from as u32, self.edges.len() as u32);
+            self.add(what, via, level)
+        };
+        if let (Some(end), true, false) = (end, new, self.pack.watches) {
+            self.ends.resize(self.ends.len().max(end + 1), None);
+            self.ends[end] = Some(target);
+        }
         let rest = events << 8 | code(reply) | if wakes { WAKES } else { 0 };
         self.edges.push(Edge { target, rest });
         self.count[from] += 1;

@@ -4,7 +4,9 @@
 
 mod broken;
 mod facts;
+mod families;
 mod folder;
 mod found;
 mod mutants;
+mod random;
 mod traces;

@@ -16,6 +16,10 @@ struct Field {
 pub(super) struct Pack {
     /// Words of a key.
     pub(super) words: usize,
+    /// Whether a cell held more than its bits: then nothing is known.
+    pub(super) overflows: bool,
+    /// Whether answers of nodes are kept until the next tick.
+    pub(super) watches: bool,
     /// The key stored last.
     pub(super) key: Vec<u64>,
     /// Cells that take bits: number of the cell, position.
@@ -53,6 +57,8 @@ impl Pack {
         let words = (used as usize).div_ceil(64);
         Pack {
             words,
+            overflows: false,
+            watches: false,
             key: vec![0; words],
             fields,
             at,
@@ -66,10 +72,11 @@ impl Pack {
     /// Packs a machine; `what` says whether it is a state, asks, or has ended.
     pub(super) fn store(&mut self, machine: &mut Machine, what: u32) {
         self.key.fill(0);
-        let (mut word, mut at) = (0, 0);
+        let (mut word, mut at, mut over) = (0, 0, 0);
         for (cell, field) in &self.fields {
             let value = machine.cells[*cell as usize] as u64;
             debug_assert!(value <= field.mask, "cell {cell} holds {value}");
+            over |= value & !field.mask;
             if field.word != at {
                 self.key[at as usize] = word;
                 (word, at) = (0, field.word);
@@ -77,6 +84,7 @@ impl Pack {
             word |= (value & field.mask) << field.shift;
         }
         self.key[at as usize] = word;
+        self.overflows |= over != 0;
         self.put(self.at, what as u64);
         self.put(self.wake, machine.wake as u64);
         if let Some(field) = self.board {
@@ -117,14 +125,17 @@ impl Pack {
 
     /// Forgets everything but what is watched: the run has ended.
     pub(super) fn leave(&self, machine: &mut Machine) {
+        if self.board.is_some() {
+            machine.entries.fill(0);
+        }
+        if !self.watches {
+            return machine.cells.fill(0);
+        }
         let watched: Vec<_> = machine.watched.iter().flatten().copied().collect();
         for (cell, value) in machine.cells.iter_mut().enumerate() {
             if !watched.contains(&cell) {
                 *value = 0;
             }
-        }
-        if self.board.is_some() {
-            machine.entries.fill(0);
         }
     }
 }

@@ -46,9 +46,9 @@ fn cells(kind: &Kind, children: usize) -> Cells {
     let place = bits(children);
     match kind {
         Kind::Sequence { yields } | Kind::Fallback { yields } => {
-            (vec![place, place], vec![1; *yields as usize], 0..2)
+            (vec![place, bits(children + 1)], vec![1; *yields as usize], 0..2)
         }
-        Kind::SequenceWithMemory => (vec![place, place], vec![1], 0..0),
+        Kind::SequenceWithMemory => (vec![place, bits(children + 1)], vec![1], 0..0),
         Kind::ReactiveSequence | Kind::ReactiveFallback | Kind::NonblockingSequence => {
             (Vec::new(), vec![1], 0..0)
         }

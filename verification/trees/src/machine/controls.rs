@@ -116,13 +116,21 @@ fn sequence(m: &mut Machine, node: usize, it: Answer, yields: bool, stop: Answer
     advance(m, node, it, yields, go)
 }
 
+/// Counts a child that was skipped. A node that failed and was not reset keeps its count, which
+/// then grows without end; only whether it equals the number of children matters, so one more than
+/// that stands for all larger ones.
+fn skip(m: &mut Machine, node: usize, all: usize) {
+    let count = (m.get(node, SKIPPED) + 1).min(all as u32 + 1);
+    m.set(node, SKIPPED, count);
+}
+
 /// Goes to the next child, yields, or ends with `go`.
 fn advance(m: &mut Machine, node: usize, it: Answer, yields: bool, go: Answer) -> Step {
     let count = m.children(node).len();
     let at = m.get(node, INDEX) + 1;
     m.set(node, INDEX, at);
     if it == Answer::Skipped {
-        m.set(node, SKIPPED, m.get(node, SKIPPED) + 1);
+        skip(m, node, count);
     } else if yields && m.get(node, WAS_IDLE) == 1 && (at as usize) < count {
         m.wake = true;
         return answer(Answer::Running);
@@ -299,7 +307,7 @@ fn try_catch(m: &mut Machine, node: usize, it: Answer) -> Step {
     } else {
         m.set(node, INDEX, m.get(node, INDEX) + 1);
         if it == Answer::Skipped {
-            m.set(node, SKIPPED, m.get(node, SKIPPED) + 1);
+            skip(m, node, m.children(node).len() - 1);
         }
     }
     try_next(m, node)
