@@ -112,6 +112,7 @@ fn of_team(args: &CampaignArgs, team: &Chosen, screen: &Screen) -> Result<Exit, 
     let settings = asked::settings(args, asked::Of::Team, source, None)?;
     let scenario = team.scenario();
     let floor = scenario.floor.on().and_then(On::ways).map(FloorText::of_team);
+    let robots = RobotText::of_team(&scenario);
     let subject = Subject::of_team(scenario, None).named(source);
     let campaign =
         Campaign::new(subject, settings).map_err(|it| Failure::of(source, it.to_string()))?;
@@ -119,7 +120,7 @@ fn of_team(args: &CampaignArgs, team: &Chosen, screen: &Screen) -> Result<Exit, 
     let shard = args.shard.unwrap_or(Shard::ALL);
     let texts = (texts.0, texts.1.as_str());
     let header = Header::new(texts, &campaign.settings, args.policy().name(), shard);
-    conduct(args, &Header { floor, ..header }, &campaign, None, screen)
+    conduct(args, &Header { floor, robots, ..header }, &campaign, None, screen)
 }
 
 /// Runs what is not stored yet, and answers.

@@ -100,9 +100,14 @@ pub(crate) fn way(
 ///
 /// # Errors
 /// When the floor cannot be read.
-pub(crate) fn ways(asked: scenario::Asked, folder: Option<&Path>) -> Result<Option<Ways>, Failure> {
+pub(crate) fn ways(
+    asked: scenario::Asked,
+    folder: Option<&Path>,
+    robots: &[RobotFile],
+) -> Result<Option<Ways>, Failure> {
+    let needs = floors::needs(robots.iter().chain([&scenario::usual()]));
     let Some((name, text)) = named(&asked.floor, folder)? else { return Ok(None) };
-    Ok(Some(read(&name, None)?.ground().ways(&name, &text, asked, floors::needs())))
+    Ok(Some(read(&name, None)?.ground().ways(&name, &text, asked, needs)))
 }
 
 /// The name and the text of a floor beside a file, or else of one that ships; `None` where there is

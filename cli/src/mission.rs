@@ -65,7 +65,7 @@ pub(crate) fn loaded(
 
 /// Whether a mission names a robot that is neither shipped nor a file beside it: the reader says
 /// where.
-fn is_missing(of: &str, mission: &str) -> bool {
+pub(crate) fn is_missing(of: &str, mission: &str) -> bool {
     let folder = Path::new(mission).parent();
     robots::embedded(of).is_none() && !folder.is_some_and(|it| it.join(of).exists())
 }

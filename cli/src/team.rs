@@ -4,6 +4,7 @@ use crate::exit::Failure;
 use crate::floor;
 use crate::input;
 use crate::kind::{self, Kind};
+use crate::mission;
 use crate::render::numbers::count;
 use cotama_core::net::owned::OwnedNet;
 use cotama_models::team::protocol::{self, MOST_STEPS, Requirement, requirements};
@@ -79,11 +80,19 @@ impl Chosen {
 
 /// Reads the file of a team at this path, with the floor that it names.
 pub(crate) fn read(path: &str, name: &str, text: &str) -> Result<Scenario, Failure> {
+    let folder = Path::new(path).parent();
+    let mut robots = Vec::new();
+    for of in Scenario::files_of(text) {
+        // One that is nowhere is left to the reader of teams, which says where it is named.
+        if !mission::is_missing(&of, path) {
+            robots.push(mission::robot(&of, folder)?.renamed(&of));
+        }
+    }
     let ways = match Asked::of(text) {
-        Some(asked) => floor::ways(asked, Path::new(path).parent())?,
+        Some(asked) => floor::ways(asked, folder, &robots)?,
         None => None,
     };
-    Ok(Scenario::parse_on(name, text, ways.as_ref())?)
+    Ok(Scenario::parse_on(name, text, ways.as_ref(), &robots)?)
 }
 
 /// The protocol of a team, and what is asked of it.

@@ -3,7 +3,7 @@
 use crate::trace::supervised::Autonomy;
 use cotama_models::severity::{Class, Severity};
 use cotama_models::team::ErrorClass;
-use cotama_models::team::scenario::{Row, Stage};
+use cotama_models::team::scenario::Stage;
 use serde::{Deserialize, Deserializer, Serializer, de::Error};
 
 /// A value with a name, and a name for one value only.
@@ -39,18 +39,6 @@ named! {
     Autonomy: "autonomy mode";
     Severity: "severity";
     Stage: "stage of a robot";
-}
-
-impl Named for Row {
-    const WHAT: &'static str = "failure mode";
-
-    fn name(self) -> &'static str {
-        Row::name(self)
-    }
-
-    fn named(name: &str) -> Option<Self> {
-        Row::named(name)
-    }
 }
 
 /// Writes a value as its name.

@@ -30,7 +30,8 @@ pub(super) fn merge(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Failur
     if team {
         let ways = whole.floor.as_ref().map(|it| it.ways(&whole.mission));
         let source = &whole.mission_source;
-        let scenario = Scenario::parse_on(source, &whole.mission, ways.as_ref())?;
+        let robots: Vec<_> = whole.robots.iter().map(RobotText::file).collect::<Result<_, _>>()?;
+        let scenario = Scenario::parse_on(source, &whole.mission, ways.as_ref(), &robots)?;
         let subject = Subject::of_team(scenario, None).named(&whole.mission_source);
         let campaign =
             Campaign::new(subject, settings).map_err(|it| Failure::new(it.to_string()))?;

@@ -130,7 +130,7 @@ fn skills(run: &TeamRun) -> String {
 /// Returns the faults, and in a small run the awards.
 fn happened(answer: &TeamAnswer, trace: &Trace, width: usize) -> String {
     let small = answer.tasks <= 8;
-    let mut rows = Vec::new();
+    let (words, mut rows) = (trace.words(), Vec::new());
     for record in &trace.records {
         let row = match record {
             Record::Awarded { t_ms, task, plan, robots, round, .. } if small => {
@@ -142,7 +142,7 @@ fn happened(answer: &TeamAnswer, trace: &Trace, width: usize) -> String {
                 (*t_ms, String::new(), trace.task(*task), "done".to_owned(), GOOD)
             }
             Record::Fails { t_ms, robot, mode } => {
-                let what = format!("fails: {}", Trace::words(*mode));
+                let what = format!("fails: {}", words(*robot, mode));
                 (*t_ms, trace.robot(*robot).to_owned(), "", what, NOTICE)
             }
             Record::Shifted { t_ms, task } => {

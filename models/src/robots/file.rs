@@ -50,6 +50,12 @@ impl RobotFile {
         Self::parse(it.name, it.text).ok()
     }
 
+    /// Returns the same robot under another name of its file.
+    #[must_use]
+    pub fn renamed(self, source: &str) -> Self {
+        Self { source: source.to_owned(), ..self }
+    }
+
     /// Returns the name of the file.
     pub fn source(&self) -> &str {
         &self.source

@@ -7,7 +7,7 @@ use std::fmt::Write;
 const SERVICE: &str = include_str!("../../teams/service.toml");
 
 /// One text of the service, and another in its place.
-const BROKEN: [(&str, &str); 53] = [
+const BROKEN: [(&str, &str); 56] = [
     ("cotama-team/1", "cotama-team/2"),
     ("format = \"cotama-team/1\"\n", ""),
     ("name = \"service\"\n", ""),
@@ -29,6 +29,9 @@ const BROKEN: [(&str, &str); 53] = [
     ("on = \"service\"", "on = 7"),
     ("name = \"Eddie\"\n", "name = \"Eddie\"\njoins_ms = 5000\nleaves_ms = 5000\n"),
     ("name = \"Eddie\"\n", "name = \"Eddie\"\njoin_ms = 5000\n"),
+    ("name = \"Eddie\"\n", "name = \"Eddie\"\nfile = \"transprt\"\n"),
+    ("name = \"Eddie\"\n", "name = \"Eddie\"\nfile = 7\n"),
+    ("name = \"Eddie\"\n", "name = \"Eddie\"\nfile = \"transport\"\n"),
     ("places = [\"desk\",", "places = [\"desk\", \"desk\","),
     ("length_mm = 6000", "length_mm = 0"),
     ("length_mm = 6000", "length_mm = \"6 m\""),

@@ -70,7 +70,9 @@ impl Fault {
             },
             Self::Power(it) => format!("power in zone {}", it.zone),
             Self::Team(it) => match it.what {
-                FaultKind::Robot(_, mode) | FaultKind::Auctioneer(mode) => mode.name().to_owned(),
+                FaultKind::Robot(_, mode) | FaultKind::Auctioneer(mode) => {
+                    format!("failure {}", mode.number())
+                }
                 FaultKind::Shifted(_) => "an object shifted".to_owned(),
                 FaultKind::Turned(..) => "an object turned".to_owned(),
             },
@@ -169,7 +171,29 @@ impl Plan {
 
     /// The names of its faults, sorted, each once: the signature of its cause.
     pub fn signature(&self) -> String {
-        let mut names: Vec<_> = self.faults.iter().map(Fault::name).collect();
+        self.signature_by(Fault::name)
+    }
+
+    /// The signature with failures of a team's robots by their short names.
+    pub fn signature_in(&self, team: &scenario::Scenario) -> String {
+        let name = |robot: usize, row: scenario::Row| {
+            Some(row.name(team.robots.get(robot)?.file.robot()).to_owned())
+        };
+        self.signature_by(|fault| {
+            let named = match fault {
+                Fault::Team(it) => match it.what {
+                    FaultKind::Robot(robot, row) => name(robot, row),
+                    FaultKind::Auctioneer(row) => name(0, row),
+                    FaultKind::Shifted(_) | FaultKind::Turned(..) => None,
+                },
+                _ => None,
+            };
+            named.unwrap_or_else(|| fault.name())
+        })
+    }
+
+    fn signature_by(&self, name: impl Fn(&Fault) -> String) -> String {
+        let mut names: Vec<_> = self.faults.iter().map(name).collect();
         names.sort();
         names.dedup();
         if names.is_empty() { "nothing fails".to_owned() } else { names.join(" + ") }
@@ -198,10 +222,7 @@ impl Plan {
             }
             _ => fault.name(),
         };
-        let mut names: Vec<_> = self.faults.iter().map(name).collect();
-        names.sort();
-        names.dedup();
-        if names.is_empty() { "nothing fails".to_owned() } else { names.join(" + ") }
+        self.signature_by(name)
     }
 }
 

@@ -28,6 +28,9 @@ pub struct Header {
     /// The file of the robot whose supervisors decide; `None` where none does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub robot: Option<RobotText>,
+    /// The files of a team's robots that are not shipped.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub robots: Vec<RobotText>,
     /// The floor that the mission goes over; `None` where it names none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub floor: Option<FloorText>,
@@ -70,6 +73,7 @@ impl Header {
             mission_source: mission_source.into(),
             mission: mission.into(),
             robot: None,
+            robots: Vec::new(),
             floor: None,
             runs: settings.runs,
             seed: settings.seed,

@@ -223,22 +223,23 @@ impl Space {
         }
     }
 
-    /// Returns the space of this team: every row of the robot's file on every robot, and objects
+    /// Returns the space of this team: every row of its file on every robot, and objects
     /// that are shifted, at any time of a run in which nothing fails.
     ///
     /// ```
-    /// use cotama_models::team::scenario::{Row, service};
+    /// use cotama_models::team::scenario::{service, usual};
     /// use cotama_campaign::space::{Rates, Space};
     /// let space = Space::of_team(&service().unwrap(), Rates::Even, 1..=2);
-    /// assert_eq!(space.kinds.len(), 4 * Row::all().count() + 2);
+    /// assert_eq!(space.kinds.len(), 4 * usual().robot().failures.len() + 2);
     /// ```
     pub fn of_team(team: &Scenario, rates: Rates, faults: std::ops::RangeInclusive<u64>) -> Self {
         let undisturbed = fleet::run(&Scenario { faults: Vec::new(), ..team.clone() });
-        let rows =
-            (0..team.robots.len()).flat_map(|robot| Row::all().map(move |mode| (robot, mode)));
-        let rows = rows.map(|(robot, mode)| Weighted {
-            kind: Kind::Robot { robot, mode },
-            weight: rates.weight(mode.mean_mh()),
+        let rows = team.robots.iter().enumerate().flat_map(|(robot, spec)| {
+            let failures = spec.file.robot().failures.iter().enumerate();
+            failures.map(move |(number, it)| Weighted {
+                kind: Kind::Robot { robot, mode: Row::new(number) },
+                weight: rates.weight(it.mean_mh),
+            })
         });
         let objects =
             (0..team.tasks.len()).map(|task| Weighted { kind: Kind::Shifted { task }, weight: 1 });

@@ -323,7 +323,10 @@ impl<'m> Subject<'m> {
 
     /// Returns the signature of a plan, with the names of the mission.
     pub fn signature(&self, plan: &Plan) -> String {
-        self.mission().map_or_else(|| plan.signature(), |it| plan.named_signature(it))
+        match &self.robot {
+            Robot::Team(team, _) => plan.signature_in(team),
+            _ => self.mission().map_or_else(|| plan.signature(), |it| plan.named_signature(it)),
+        }
     }
 
     /// Whether supervisors decide.

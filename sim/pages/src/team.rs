@@ -218,7 +218,7 @@ fn marks(svg: &mut Svg, trace: &Trace, robot: usize, at: &dyn Fn(u64) -> f64, y:
         match record {
             Record::Fails { t_ms, robot: of, mode } if *of == robot => {
                 let x = at(*t_ms);
-                let (who, mode) = (trace.robot(robot), mode.name());
+                let who = trace.robot(robot);
                 let title = format!("{who}: {mode} at {}", seconds(*t_ms));
                 let (left, top) = (fixed(x - 4.0), fixed(y - 4.0));
                 svg.titled(&title, |svg| {
@@ -239,11 +239,11 @@ fn marks(svg: &mut Svg, trace: &Trace, robot: usize, at: &dyn Fn(u64) -> f64, y:
 
 /// Failures, errors, silence, and what became of the tasks.
 fn wrong(page: &mut String, trace: &Trace) {
-    let mut rows = Vec::new();
+    let (words, mut rows) = (trace.words(), Vec::new());
     for record in &trace.records {
         let row = match record {
             Record::Fails { t_ms, robot, mode } => {
-                let what = format!("fails: {}", Trace::words(*mode));
+                let what = format!("fails: {}", words(*robot, mode));
                 (*t_ms, trace.robot(*robot), String::new(), what)
             }
             Record::Shifted { t_ms, task } => {
@@ -253,7 +253,7 @@ fn wrong(page: &mut String, trace: &Trace) {
                 (*t_ms, "", trace.task(*task).to_owned(), "its object is turned".to_owned())
             }
             Record::Found { t_ms, robot, mode } => {
-                (*t_ms, trace.robot(*robot), String::new(), format!("finds {}", mode.name()))
+                (*t_ms, trace.robot(*robot), String::new(), format!("finds {mode}"))
             }
             Record::Error { t_ms, robot, task, class, why } => {
                 let what = format!("{}: {why}", class.name());

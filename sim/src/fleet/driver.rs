@@ -19,19 +19,14 @@ use cotama_core::player::{Firing, Names, Observer};
 use cotama_core::system::Of;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::level::{Act, Cause, Hidden};
-use cotama_models::robots::{Global, Mode, Robot, Told, Where, members};
+use cotama_models::robots::{Global, Mode, Robot, RobotFile, Told, Where, members};
 use cotama_models::team::scenario::{self, Row, Stage};
 use moving::{Moving, Orders};
 use std::collections::VecDeque;
-use supervisors::{KIND, Kind, Supervisors};
+use supervisors::{Kind, Supervisors, kind_of};
 
 /// A robot whose role is over stands within so many periods, or runs away.
 const MOST_COASTED: u64 = 600;
-
-/// Returns the period of rounds, in ms.
-pub(super) fn period() -> u64 {
-    KIND.period()
-}
 
 /// The outcome of a round.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,6 +40,7 @@ pub(super) struct Driven {
 /// The robot under its decisional component.
 #[derive(Clone, Debug)]
 pub(super) struct Driver {
+    kind: &'static Kind,
     level: Supervisors,
     moving: Moving,
     /// The places of the level after the last round, and since when the robot is there.
@@ -66,10 +62,13 @@ pub(super) struct Driver {
 }
 
 impl Driver {
-    pub(super) fn new(every_round: bool) -> Self {
+    /// A robot of this file, without a task.
+    pub(super) fn new(file: &RobotFile, every_round: bool) -> Self {
+        let kind = kind_of(file);
         Self {
-            level: KIND.at_rest(&[]),
-            moving: Moving::new(),
+            kind,
+            level: kind.at_rest(&[]),
+            moving: Moving::new(kind),
             global: Global::Waits,
             place: Where::Rests,
             place_since: 0,
@@ -82,8 +81,13 @@ impl Driver {
         }
     }
 
-    fn robot() -> &'static Robot {
-        KIND.robot
+    const fn robot(&self) -> &'static Robot {
+        self.kind.robot
+    }
+
+    /// Returns the period of rounds, in ms.
+    pub(super) fn period(&self) -> u64 {
+        self.kind.period()
     }
 
     /// A task begins: two drives of these lengths.
@@ -112,14 +116,15 @@ impl Driver {
     /// The supervisors start anew, with the losses that they knew; all else that is under way is to
     /// be found again.
     fn drop_role(&mut self) {
-        let (lost, reports) = (self.level.lost(), &Self::robot().losses.reports);
+        let (lost, reports) = (self.level.lost(), &self.robot().losses.reports);
         let is_known = |report: usize| {
             let loss = reports.get(report).and_then(|it| it.loss);
             loss.is_some_and(|it| lost >> it & 1 == 1)
         };
         self.told.retain(|it| is_known(*it));
-        self.level = KIND.at_rest(&self.told);
-        let report = |row: usize| KIND.tables.failures.get(row).map(|it| usize::from(it.report));
+        self.level = self.kind.at_rest(&self.told);
+        let tables = &self.kind.tables;
+        let report = |row: usize| tables.failures.get(row).map(|it| usize::from(it.report));
         let is_told = |row: usize| report(row).is_some_and(is_known);
         self.moving.failures.show_again(is_told);
         let failures = &self.moving.failures;
@@ -138,7 +143,7 @@ impl Driver {
             if ahead.drive.speed().0 == 0 || ahead.drive.x() >= leg {
                 break;
             }
-            ahead.go(ahead.now + period(), &orders);
+            ahead.go(ahead.now + self.period(), &orders);
         }
         ahead.drive.x().min(leg).0
     }
@@ -146,7 +151,7 @@ impl Driver {
     /// Something fails.
     pub(super) fn fail(&mut self, now: u64, row: Row) {
         self.go(now);
-        self.moving.failures.fail(KIND.robot, Millis(now), row.number());
+        self.moving.failures.fail(self.kind.robot, Millis(now), row.number());
         self.calm = false;
     }
 
@@ -199,7 +204,7 @@ impl Driver {
 
     /// How fast it could drive with what is not known to be lost, in mm/s; none where it cannot.
     pub(super) fn pace(&self) -> Option<u64> {
-        if self.is_stopped() { None } else { scenario::pace(self.level.lost()) }
+        if self.is_stopped() { None } else { scenario::pace(self.robot(), self.level.lost()) }
     }
 
     fn leg(&self) -> Millimetres {
@@ -264,21 +269,25 @@ impl Driver {
         let seen = std::mem::take(&mut self.moving.seen);
         let first = self.moving.failures.all.get(*seen.first()?)?.number;
         self.calm = false;
-        let (_, taken) =
-            self.moving.failures.diagnosed(KIND.robot, &KIND.tables, (0, &seen), Hidden::default());
-        let reports = taken.into_iter().filter_map(|it| KIND.tables.failures.get(it));
+        let (_, taken) = self.moving.failures.diagnosed(
+            self.kind.robot,
+            &self.kind.tables,
+            (0, &seen),
+            Hidden::default(),
+        );
+        let reports = taken.into_iter().filter_map(|it| self.kind.tables.failures.get(it));
         let reports = reports.map(|it| usize::from(it.report));
         for told in reports.map(Told::Report) {
             if !self.untold.contains(&told) {
                 self.untold.push_back(told);
             }
         }
-        Row::new(first)
+        Some(Row::new(first))
     }
 
     /// Lost parts that have worked again for long enough are to be told.
     fn return_what_works(&mut self, now: u64) {
-        let back = self.moving.adapted.back(&KIND.tables, self.level.lost(), Millis(now));
+        let back = self.moving.adapted.back(&self.kind.tables, self.level.lost(), Millis(now));
         for told in members(u64::from(back)).map(Told::Back) {
             if !self.untold.contains(&told) {
                 self.untold.push_back(told);
@@ -301,7 +310,7 @@ impl Driver {
     /// Makes the settings, and starts the modules anew, that the observation module wants.
     fn react(&mut self, now: u64, seen: &Seen) {
         self.calm &= seen.fired.is_empty();
-        let kind: &Kind = &KIND;
+        let kind = self.kind;
         for id in seen.fired.iter().filter(|it| Some(usize::from(it.component)) == kind.observation)
         {
             for act in kind.tables.acts(*id) {
@@ -319,7 +328,7 @@ impl Driver {
 
     /// Makes the setting of a report.
     fn set(&mut self, now: u64, report: usize) {
-        let of = Self::robot().losses.reports.get(report);
+        let of = self.robot().losses.reports.get(report);
         if let Some((of, setting)) = of.and_then(|it| Some((it, it.sets.as_ref()?))) {
             self.moving.failures.set(&of.failures, setting);
         }
@@ -338,7 +347,7 @@ impl Driver {
             self.place_since = now;
         }
         let Where::Runs { configuration, .. } = place else { return None };
-        Self::robot().configurations.get(configuration).map(|it| it.name.as_str())
+        self.robot().configurations.get(configuration).map(|it| it.name.as_str())
     }
 
     /// When the next round counts; none while nothing happens by itself.
@@ -346,7 +355,7 @@ impl Driver {
         if !self.thinks() {
             return None;
         }
-        let (orders, moving, period) = (self.orders(), &self.moving, period());
+        let (orders, moving, period) = (self.orders(), &self.moving, self.period());
         let soon = moving.now + period;
         let busy = !self.untold.is_empty()
             || !moving.seen.is_empty()
@@ -371,8 +380,8 @@ impl Driver {
     fn waits_until(&self) -> Option<u64> {
         match self.place {
             Where::Waits => Some(self.place_since + PATIENCE.0 + 1),
-            Where::Runs { configuration, .. } if !moves(Self::robot(), self.place) => {
-                let takes = Self::robot().configurations.get(configuration).map(|it| it.takes.0);
+            Where::Runs { configuration, .. } if !moves(self.robot(), self.place) => {
+                let takes = self.robot().configurations.get(configuration).map(|it| it.takes.0);
                 takes.map(|it| self.place_since + it)
             }
             Where::Runs { .. } | Where::Rests => None,
@@ -401,10 +410,10 @@ impl Driver {
                 Told::GivesUp
             }),
             Where::Runs { sub_objective, configuration } => {
-                let own = mode(Self::robot(), self.place) == Some(Mode::Autonomous);
-                let takes = Self::robot().configurations.get(configuration);
+                let own = mode(self.robot(), self.place) == Some(Mode::Autonomous);
+                let takes = self.robot().configurations.get(configuration);
                 let takes = takes.map_or(0, |it| it.takes.0);
-                let reached = if moves(Self::robot(), self.place) {
+                let reached = if moves(self.robot(), self.place) {
                     self.moving.drive.x() >= self.leg() && self.moving.drive.speed().0 == 0
                 } else {
                     waited >= takes

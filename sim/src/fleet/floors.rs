@@ -1,17 +1,19 @@
 //! The floors on which teams stand.
 
 use cotama_floor::{Ground, Needs, embedded};
-use cotama_models::team::scenario::{Asked, Floor, Ways, robot};
+use cotama_models::robots::RobotFile;
+use cotama_models::team::scenario::{Asked, Floor, Ways, usual};
 
-/// Returns what the robots of a team need of a floor.
-pub fn needs() -> Needs {
-    let body = robot().and_then(|it| it.body.as_ref());
-    let radius_mm = body.and_then(|it| u32::try_from(it.radius.0).ok());
+/// Returns what the widest of the robots of a team needs of a floor.
+pub fn needs<'r>(robots: impl IntoIterator<Item = &'r RobotFile>) -> Needs {
+    let radius = |it: &RobotFile| u32::try_from(it.robot().body.as_ref()?.radius.0).ok();
+    let widest = robots.into_iter().filter_map(radius).max();
     let usual = Needs::default();
-    Needs { radius_m: radius_mm.map_or(usual.radius_m, |it| f64::from(it) / 1_000.0), ..usual }
+    Needs { radius_m: widest.map_or(usual.radius_m, |it| f64::from(it) / 1_000.0), ..usual }
 }
 
-/// Plans the ways of a team over a floor that ships; `None` where none has this name.
+/// Plans the ways of a team of usual robots over a floor that ships; `None` where none has this
+/// name.
 ///
 /// ```
 /// use cotama_models::team::scenario::Asked;
@@ -24,7 +26,7 @@ pub fn needs() -> Needs {
 pub fn ways(asked: Asked) -> Option<Ways> {
     let file = embedded::named(&asked.floor)?;
     let floor = file.floor().ok()?;
-    Some(Ground::Drawing(&floor).ways(file.name, file.text, asked, needs()))
+    Some(Ground::Drawing(&floor).ways(file.name, file.text, asked, needs([&usual()])))
 }
 
 /// Draws the places and ways of a team on a floor that ships; lengths stay.

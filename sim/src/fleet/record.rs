@@ -3,7 +3,7 @@
 use super::message::Kind;
 use crate::trace::Line;
 use cotama_models::team::ErrorClass;
-use cotama_models::team::scenario::{Row, Stage};
+use cotama_models::team::scenario::Stage;
 use serde::{Deserialize, Serialize};
 
 /// Something that happened. Robots and tasks are numbers; the header of a trace has their names.
@@ -82,9 +82,8 @@ pub enum Record {
         t_ms: u64,
         /// The robot.
         robot: usize,
-        /// The row of the robot's file.
-        #[serde(with = "crate::named")]
-        mode: Row,
+        /// The short name of the row of the robot's file.
+        mode: String,
     },
     /// The object of a task moves under the hand.
     Shifted {
@@ -106,9 +105,8 @@ pub enum Record {
         t_ms: u64,
         /// The robot.
         robot: usize,
-        /// The row of the robot's file.
-        #[serde(with = "crate::named")]
-        mode: Row,
+        /// The short name of the row of the robot's file.
+        mode: String,
     },
     /// The decisional component of a robot changed its configuration under way.
     Configured {

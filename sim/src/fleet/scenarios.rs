@@ -8,7 +8,7 @@ use cotama_models::team::scenario;
 use cotama_models::team::scenario::{
     FailureRates, Fault, FaultKind, FaultTime, Floor, Formation, Give, MAX_ROBOTS, Method, Needs,
     Place, PlanSpec, Quality, RobotSpec, RoleSpec, Row, Scenario, Seat, Stay, Take, TaskSpec,
-    Trust,
+    Trust, usual,
 };
 use cotama_models::team::service::{DETECT, GRASP_2F, MOVE};
 use cotama_models::team::{Capability, CapabilitySet, Reliability, Skill};
@@ -123,6 +123,7 @@ pub fn fleet(options: &FleetOptions) -> Scenario {
         };
         RobotSpec {
             name: format!("r{:02}", number + 1),
+            file: usual(),
             skills: [MOVE, DETECT, GRASP_2F]
                 .into_iter()
                 .chain((number.is_multiple_of(3)).then_some(BADGE))
@@ -167,7 +168,7 @@ fn drives_and_grasps(role: &mut RoleSpec) {
 fn faults(options: &FleetOptions, robots: usize, horizon: u64, streams: Streams) -> Vec<Fault> {
     let mut all = failures(robots, options.failures, horizon, &mut streams.stream("fleet faults"));
     let mut moments = streams.stream("fleet auctioneers");
-    let laptop = Row::named("PWR1").filter(|_| options.takeover);
+    let laptop = Row::named(usual().robot(), "PWR1").filter(|_| options.takeover);
     let kill = |row| Fault {
         when: FaultTime::At(moments.below(horizon + 1)),
         what: FaultKind::Auctioneer(row),
@@ -186,7 +187,7 @@ fn failures(robots: usize, failures: usize, horizon: u64, stream: &mut Stream) -
         let modes = modes[usize::from(number >= failures)];
         let mode = modes[stream.below(modes.len() as u64) as usize];
         let when = FaultTime::At(stream.below(horizon + 1));
-        Some(Fault { when, what: FaultKind::Robot(robot, Row::named(mode)?) })
+        Some(Fault { when, what: FaultKind::Robot(robot, Row::named(usual().robot(), mode)?) })
     });
     each.collect()
 }
@@ -349,6 +350,7 @@ pub fn worst(case: Worst, robots: usize) -> Scenario {
     };
     let robot = |number: usize| RobotSpec {
         name: format!("r{}", number + 1),
+        file: usual(),
         skills: vec![Skill::certain(MOVE), Skill::certain(GRASP_2F)],
         fails: FailureRates::NONE,
         start: Place(0),

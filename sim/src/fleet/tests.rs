@@ -11,7 +11,9 @@ use super::world::{Planted, World};
 use super::{Kind, run, run_recorded};
 use crate::fleet::bid::Offer;
 use crate::streams::Streams;
-use cotama_models::team::scenario::{Fault, FaultKind, FaultTime, Method, Row, Scenario, TaskSpec};
+use cotama_models::team::scenario::{
+    Fault, FaultKind, FaultTime, Method, Row, Scenario, TaskSpec, usual,
+};
 use cotama_models::team::{Probability, Reliability};
 
 /// Table 3.1, worst case: 4n, n² + 3n and 3n² + 3n.
@@ -108,7 +110,7 @@ fn the_same_seed_gives_the_same_run_and_silent_rounds_change_nothing() {
 #[test]
 fn silent_rounds_change_nothing_whatever_fails() {
     let options = FleetOptions { robots: 3, tasks: 6, failures: 0, ..FleetOptions::default() };
-    for (number, row) in Row::all().enumerate() {
+    for (number, row) in Row::all(usual().robot()).enumerate() {
         let mut scenario = fleet(&FleetOptions { seed: number as u64, ..options });
         let at = |it: usize| FaultTime::At(1_000 + 61_234 * it as u64);
         let fault = |when| Fault { when, what: FaultKind::Robot(0, row) };

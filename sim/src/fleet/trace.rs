@@ -2,7 +2,7 @@
 //! replay need nothing else.
 
 use super::record::{Record, Run};
-use crate::trace::{Difference, FloorText, Head, TraceOf};
+use crate::trace::{Difference, FloorText, Head, RobotText, TraceOf};
 use cotama_models::missions::MissionErrors;
 use cotama_models::team::scenario::{On, Row, Scenario};
 use serde::{Deserialize, Serialize};
@@ -36,6 +36,9 @@ pub struct Header {
     /// The floor on which the team stands, with the ways over it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub floor: Option<FloorText>,
+    /// The files of its robots that are not shipped.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub files: Vec<RobotText>,
     /// The seed of the network.
     pub seed: u64,
     /// How tasks are given to robots.
@@ -71,6 +74,7 @@ impl Trace {
             scenario: scenario.name.clone(),
             team: scenario.to_toml(),
             floor: scenario.floor.on().and_then(On::ways).map(FloorText::of_team),
+            files: RobotText::of_team(scenario),
             seed: scenario.seed,
             allocation: scenario.method.name().into(),
             loss_permille: scenario.network.loss_permille,
@@ -96,9 +100,10 @@ impl Trace {
     /// # Errors
     /// All errors of its text.
     pub fn scenario(&self) -> Result<Scenario, MissionErrors> {
-        let Header { scenario, team, floor, .. } = &self.header;
+        let Header { scenario, team, floor, files, .. } = &self.header;
         let ways = floor.as_ref().map(|it| it.ways(team));
-        let scenario = Scenario::parse_on(scenario, team, ways.as_ref())?;
+        let robots: Vec<_> = files.iter().map(RobotText::file).collect::<Result<_, _>>()?;
+        let scenario = Scenario::parse_on(scenario, team, ways.as_ref(), &robots)?;
         Ok(Scenario { seed: self.header.seed, ..scenario })
     }
 
@@ -112,9 +117,15 @@ impl Trace {
         self.header.tasks.get(task).map_or("?", |it| it)
     }
 
-    /// A failure in words, as its row in the robot's file.
-    pub fn words(row: Row) -> String {
-        row.words()
+    /// Returns the words of failures, by robot and short name: those of their rows in the robots'
+    /// files.
+    pub fn words(&self) -> impl Fn(usize, &str) -> String + use<> {
+        let scenario = self.scenario().ok();
+        move |robot, mode| {
+            let file = scenario.as_ref().and_then(|it| Some(&it.robots.get(robot)?.file));
+            let row = file.and_then(|it| Some((Row::named(it.robot(), mode)?, it.robot())));
+            row.map_or_else(|| mode.to_owned(), |(row, robot)| row.words(robot))
+        }
     }
 }
 

@@ -2,7 +2,8 @@
 
 use cotama_formats::json;
 use cotama_models::missions::MissionErrors;
-use cotama_models::robots::RobotFile;
+use cotama_models::robots::{RobotFile, embedded};
+use cotama_models::team::scenario::Scenario;
 use serde::{Deserialize, Serialize};
 
 /// The file of a robot.
@@ -22,6 +23,19 @@ impl RobotText {
     pub fn of(file: &RobotFile) -> Self {
         let local = file.robot().local.as_ref().map(|it| json::write(&it.view().net()));
         Self { source: file.source().into(), text: file.text().into(), local }
+    }
+
+    /// Returns the texts of the robots of a team that are not shipped, each once.
+    pub fn of_team(team: &Scenario) -> Vec<Self> {
+        let mut files: Vec<&RobotFile> = Vec::new();
+        for file in team.robots.iter().map(|it| &it.file) {
+            if !files.contains(&file) {
+                files.push(file);
+            }
+        }
+        let is_shipped =
+            |it: &RobotFile| embedded(it.source()).is_some_and(|own| own.text == it.text());
+        files.into_iter().filter(|it| !is_shipped(it)).map(Self::of).collect()
     }
 
     /// Reads the file.

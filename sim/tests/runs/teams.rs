@@ -1,7 +1,8 @@
 //! Teams on floors: lengths are those of the planner, positions lie on free floor, traces replay.
 
 use cotama_floor::{Floor, Needs, Planner, Surface, Version, embedded, metres};
-use cotama_models::team::scenario::{Asked, On, Place, Scenario, Spot};
+use cotama_models::robots::RobotFile;
+use cotama_models::team::scenario::{Asked, On, Place, Scenario, Spot, usual};
 use cotama_sim::fleet::floors::{needs, ways};
 use cotama_sim::fleet::record::{Fate, Record};
 use cotama_sim::fleet::scenarios::{FleetOptions, ServiceOptions, fleet, service};
@@ -13,7 +14,7 @@ const CREW: &str = include_str!("../../../cli/templates/team.toml");
 
 fn read(text: &str) -> Result<Scenario, String> {
     let ways = Asked::of(text).and_then(ways);
-    Scenario::parse_on("crew.toml", text, ways.as_ref()).map_err(|it| it.to_string())
+    Scenario::parse_on("crew.toml", text, ways.as_ref(), &[]).map_err(|it| it.to_string())
 }
 
 fn crew() -> Scenario {
@@ -41,7 +42,7 @@ fn distances_of_a_team_are_those_of_the_planner_of_missions() {
     let scenario = crew();
     let office = embedded::OFFICE.floor().unwrap();
     let surface = office.surface(Version::Charted, &[]).unwrap();
-    let planner = Planner::new(&surface, needs()).unwrap();
+    let planner = Planner::new(&surface, needs([&usual()])).unwrap();
     let at = |it: usize| metres(office.place(scenario.floor.name(Place(it))).unwrap().at);
     for a in 0..scenario.floor.places() {
         for b in a + 1..scenario.floor.places() {
@@ -51,7 +52,7 @@ fn distances_of_a_team_are_those_of_the_planner_of_missions() {
             assert_eq!(found, [Some(planned); 2], "{a} {b}");
         }
     }
-    assert_eq!(needs(), Needs::default());
+    assert_eq!(needs([&usual()]), Needs::default());
 }
 
 #[test]
@@ -70,7 +71,7 @@ fn a_team_on_a_floor_replays_byte_for_byte_and_its_file_is_read_as_it_was_writte
 
 #[test]
 fn robots_drive_where_the_floor_is_free() {
-    let radius = needs().radius_m;
+    let radius = needs([&usual()]).radius_m;
     let small = FleetOptions { robots: 8, tasks: 24, failures: 1, ..FleetOptions::default() };
     let disturbances = true;
     let quiet = ServiceOptions { disturbances, ..ServiceOptions::default() };
@@ -169,4 +170,53 @@ proptest! {
 
 thread_local! {
     static CREW_READ: Scenario = crew();
+}
+
+/// The crew with a robot of a file beside the team: the transport robot, and a slower one of its
+/// kind.
+fn of_several_kinds() -> Scenario {
+    let shipped = RobotFile::shipped("transport").unwrap();
+    let slow = shipped.text().replace("speed_mm_s = 1_500", "speed_mm_s = 500");
+    let slow = RobotFile::parse("lift.toml", &slow).unwrap();
+    let text = CREW
+        .replace("name = \"Anna\"", "name = \"Anna\"\nfile = \"transport\"")
+        .replace("name = \"Cleo\"", "name = \"Cleo\"\nfile = \"lift.toml\"")
+        .replace("robot = \"Ben\"\nmode = \"SON2\"", "robot = \"Cleo\"\nmode = \"CAM1\"");
+    let ways = Asked::of(&text).and_then(ways);
+    Scenario::parse_on("crew.toml", &text, ways.as_ref(), &[slow]).unwrap()
+}
+
+#[test]
+fn each_robot_of_a_team_drives_and_fails_as_its_own_file_says() {
+    let crew = of_several_kinds();
+    let paces = crew.robots.iter().map(|it| it.pace(0));
+    assert_eq!(paces.collect::<Vec<_>>(), [Some(1_500), Some(300), Some(500)]);
+    let parcel = &crew.tasks[0].plans[0].roles[0];
+    let bids = [0, 1, 2].map(|robot| crew.bid(robot, 0, parcel).unwrap());
+    assert_eq!(bids, [58_217, 102_638, 113_956]);
+    // Anna as a Pioneer plans for 2 s a drive in place of 14 s, and is five times as slow.
+    assert_eq!(self::crew().bid(0, 0, parcel), Some(71_089));
+    let trace = Trace::of(&crew);
+    assert_eq!((trace.run().count(Fate::Done), trace.run().is_sound()), (3, true));
+    let words = trace.words();
+    let failed = trace.records.iter().find_map(|it| match it {
+        Record::Fails { robot, mode, .. } => Some(words(*robot, mode)),
+        _ => None,
+    });
+    assert_eq!(failed.as_deref(), Some("CAM1, depth camera: no depth image"));
+    let runs = |name: &str| {
+        trace.records.iter().any(
+            |it| matches!(it, Record::Configured { configuration, .. } if configuration == name),
+        )
+    };
+    assert!(runs("Follow.Low"));
+}
+
+#[test]
+fn a_trace_holds_the_files_of_a_teams_robots() {
+    let trace = Trace::of(&of_several_kinds());
+    let names: Vec<_> = trace.header.files.iter().map(|it| it.source.as_str()).collect();
+    assert_eq!(names, ["lift.toml"]);
+    let stored = Trace::parse("crew.jsonl", &trace.to_json_lines()).unwrap();
+    assert_eq!(replay(&stored).unwrap().1, None);
 }

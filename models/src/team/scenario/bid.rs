@@ -1,7 +1,6 @@
 //! Bids of the robots for roles: the time of the drives and of the hands, failures counted in.
 
-use super::worker::{drive_ms, pace, planning_ms};
-use super::{Give, Needs, Place, RoleSpec, Scenario, Spot, Stage, Take};
+use super::{Give, Needs, Place, RobotSpec, RoleSpec, Scenario, Spot, Stage, Take};
 use crate::team::bid::{Bid, MAX_STEPS, Step, steps};
 use crate::team::capability::{Capability, CapabilitySet, Robot, Skill};
 use crate::team::reliability::{Probability, Reliability};
@@ -13,6 +12,8 @@ const ROUNDS: u64 = 1_500;
 /// The part of a robot in a role as things stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Outlook<'a> {
+    /// The robot.
+    pub robot: &'a RobotSpec,
     /// The skills of the robot, as it takes them to be.
     pub skills: &'a [Skill],
     /// The capabilities with which it would do so.
@@ -181,11 +182,11 @@ impl Scenario {
 
     /// Returns the ways and times of a role for a robot; `None` where no way leads there.
     pub(super) fn parts(&self, role: &RoleSpec, outlook: &Outlook<'_>) -> Option<Parts> {
-        let Outlook { from, pace, ends: [takes, gives], holds, .. } = *outlook;
+        let Outlook { robot, from, pace, ends: [takes, gives], holds, .. } = *outlook;
         let ways_mm = [self.floor.distance(from, takes)?, self.floor.distance(takes, gives)?];
         Some(Parts {
             ways_mm,
-            drives_ms: ways_mm.map(|it| planning_ms().saturating_add(drive_ms(it, pace))),
+            drives_ms: ways_mm.map(|it| robot.drive_ms(it, pace)),
             rounds_ms: ROUNDS,
             take_ms: if holds { 0 } else { role.take_ms },
             give_ms: role.give_ms,
@@ -220,10 +221,11 @@ impl Scenario {
         let at = |place: Place| Spot::at(place);
         let skills = who.trusted(self.trust);
         Some(act(&Outlook {
+            robot: who,
             skills: &skills,
             able: who.capabilities(),
             from: at(who.start),
-            pace: pace(0)?,
+            pace: who.pace(0)?,
             ends: self.ends(task, role, at(object)),
             holds: false,
         }))

@@ -62,11 +62,12 @@ pub use reader::{FAULTS, FaultsOfTeam};
 pub use reasons::{Contest, Counted, Lack, Offer, Reasons};
 pub use seat::{Seat, Stay};
 pub use trust::{FailureRates, Trust};
-pub use worker::{Row, drive_ms, pace, planning_ms, robot, steps};
+pub use worker::{Row, SLOTS, USUAL, WORDS, drive_ms, pace, steps, usual};
 
 use super::capability::{Capability, CapabilitySet, Robot, Skill};
 use super::constraint::Constraint;
 use super::task::{Action, ActionPlan, Role};
+use crate::robots::RobotFile;
 use cotama_core::team::Combine;
 
 /// Reads the drink service of the thesis (3.6), run 2, which is shipped.
@@ -82,6 +83,8 @@ pub fn service() -> Result<Scenario, crate::missions::MissionErrors> {
 pub struct RobotSpec {
     /// Name of the robot.
     pub name: String,
+    /// Motion, failures and supervisors of the robot.
+    pub file: RobotFile,
     /// Capabilities and their reliability.
     pub skills: Vec<Skill>,
     /// How often uses of them fail.
@@ -296,10 +299,11 @@ pub enum FaultTime {
 /// A kind of fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FaultKind {
-    /// A robot fails.
+    /// A robot fails: a row of its file.
     Robot(usize, Row),
     /// The robot that gives tasks out at that time fails; nobody, where the auctioneer is at a
-    /// desk, or where none leads.
+    /// desk, or where none leads. A row of the first robot's file; the robot fails by the row of
+    /// its own file of [the same short name](Scenario::row_of).
     Auctioneer(Row),
     /// The object of a task moves under the hand: it is to be taken again.
     Shifted(usize),

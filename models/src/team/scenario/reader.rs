@@ -1,19 +1,22 @@
 //! Reading a team's file.
 
 mod places;
+mod robot;
 mod skill;
 mod task;
 
 use super::{
-    FORMAT, Fault, FaultKind, FaultTime, Formation, MANY, MAX_ROBOTS, Method, Quality, RobotSpec,
-    Row, Scenario, Seat, Stage, Stay, Trust, Ways,
+    FORMAT, Fault, FaultKind, FaultTime, Formation, MANY, MAX_ROBOTS, Method, Quality, Scenario,
+    Seat, Stage, Trust, Ways,
 };
 use crate::missions::faults::Expected;
 use crate::missions::reader::fields::{Fields, Reported, Sink, document, document_of_either};
 use crate::missions::{Diagnostic, MissionErrors, Spanned};
 use crate::names::{quoted, unknown};
+use crate::robots::RobotFile;
 use crate::team::{Capability, CapabilitySet};
 use places::{Places, floor};
+use robot::{Files, robot, row, shared_row};
 use skill::{skill, skills};
 use std::ops::{Range, RangeInclusive};
 
@@ -30,6 +33,8 @@ struct Names {
     skills: Vec<String>,
     robots: Vec<String>,
     tasks: Vec<String>,
+    /// The files of the robots that could be read, by their numbers.
+    files: Vec<Option<RobotFile>>,
 }
 
 impl Scenario {
@@ -47,12 +52,13 @@ impl Scenario {
     /// assert!(errors.contains(first), "{errors}");
     /// ```
     pub fn parse(source_name: &str, text: &str) -> Result<Self, MissionErrors> {
-        Self::parse_on(source_name, text, None)
+        Self::parse_on(source_name, text, None, &[])
     }
 
     /// Reads the same file of a team that stands on a floor, with the ways that were planned for
     /// what the file [asks](super::Asked). They are not looked at where the file names no floor;
-    /// without them only a file can be read that says the lengths of its ways itself.
+    /// without them only a file can be read that says the lengths of its ways itself. `robots` are
+    /// the files that it [names](Self::files_of) beside those that are shipped.
     ///
     /// # Errors
     /// All errors of the file, with their places: among them each place that the floor does not
@@ -61,9 +67,11 @@ impl Scenario {
         source_name: &str,
         text: &str,
         ways: Option<&Ways>,
+        robots: &[RobotFile],
     ) -> Result<Self, MissionErrors> {
         let sink = Sink::default();
-        let scenario = document_of_either(text, &sink, FORMAT, |it| scenario(it, ways));
+        let files = Files::new(robots);
+        let scenario = document_of_either(text, &sink, FORMAT, |it| scenario(it, ways, files));
         match scenario.filter(|_| sink.is_empty()) {
             Some(scenario) => Ok(scenario),
             None => Err(MissionErrors::new(source_name, text, sink.into_diagnostics())),
@@ -110,6 +118,7 @@ impl Scenario {
             skills: self.skills.clone(),
             robots: self.robots.iter().map(|it| it.name.clone()).collect(),
             tasks: self.tasks.iter().map(|it| it.name.clone()).collect(),
+            files: self.robots.iter().map(|it| Some(it.file.clone())).collect(),
         };
         let read = document(text, &sink, FAULTS, |mut fields| {
             let faults = fields.tables_up_to("fault", false, MANY).unwrap_or_default();
@@ -130,7 +139,7 @@ impl Scenario {
     }
 }
 
-fn scenario(mut fields: Fields<'_>, ways: Option<&Ways>) -> Option<Scenario> {
+fn scenario(mut fields: Fields<'_>, ways: Option<&Ways>, mut files: Files<'_>) -> Option<Scenario> {
     let name = fields.text("name");
     let mut names = Names::default();
     let known = fields.optional_texts("skills").unwrap_or_default();
@@ -146,7 +155,7 @@ fn scenario(mut fields: Fields<'_>, ways: Option<&Ways>) -> Option<Scenario> {
         return None;
     }
     let robots = robots.unwrap_or_default().into_iter();
-    let robots: Vec<_> = robots.map(|it| robot(it, &mut names)).collect();
+    let robots: Vec<_> = robots.map(|it| robot(it, &mut names, &mut files)).collect();
     let auction = auction(fields.optional_table("auction"), &names);
     let tasks = fields.tables_up_to("task", true, MANY);
     if tasks.is_none() && fields.has("task") {
@@ -287,42 +296,18 @@ fn one_of<T: Copy, const N: usize>(
     Ok(Some(known[at].1))
 }
 
-fn robot(mut fields: Fields<'_>, names: &mut Names) -> Option<RobotSpec> {
-    let name = new_name(&mut fields, "robot", &mut names.robots);
-    let at = fields.text("at");
-    let start = names.places.place(&fields, at.as_ref());
-    let skills = skills(&mut fields, names);
-    let stay = stay(&mut fields);
-    fields.finish();
-    let (skills, fails) = skills?;
-    Some(RobotSpec { name: name?, skills, fails, start: start?, stay: stay? })
-}
-
-/// When a robot joins the team, and when it leaves.
-fn stay(fields: &mut Fields<'_>) -> Option<Stay> {
-    let joins = fields.optional_integer("joins_ms", AMOUNTS);
-    let leaves = fields.optional_integer("leaves_ms", AMOUNTS);
-    let stay = Stay { joins_ms: joins.ok()?.unwrap_or(0), leaves_ms: leaves.ok()? };
-    if stay.leaves_ms.is_some_and(|it| it <= stay.joins_ms) {
-        let message = "the robot leaves before it joins";
-        let help = "let `leaves_ms` be more than `joins_ms`, which is 0 if left out";
-        let span = fields.span_of("leaves_ms");
-        fields.report(Diagnostic::new(span, message, "too early").help(help));
-        return None;
-    }
-    Some(stay)
-}
-
 fn fault(mut fields: Fields<'_>, names: &Names) -> Option<Fault> {
     let span = fields.whole();
     let when = moment(&mut fields, names, span.clone());
     let what = [fields.has("robot"), fields.has("shifts"), fields.has("turns")];
     let what = match what {
-        [false, false, false] if fields.has("mode") => row(&mut fields).map(FaultKind::Auctioneer),
+        [false, false, false] if fields.has("mode") => {
+            shared_row(&mut fields, names).map(FaultKind::Auctioneer)
+        }
         [true, false, false] => {
             let robot = fields.text("robot");
             let robot = among(&fields, robot.as_ref(), "robot", &names.robots);
-            let row = row(&mut fields);
+            let row = row(&mut fields, names, robot);
             robot.zip(row).map(|(robot, row)| FaultKind::Robot(robot, row))
         }
         [false, true, false] => {
@@ -351,12 +336,6 @@ fn fault(mut fields: Fields<'_>, names: &Names) -> Option<Fault> {
     };
     fields.finish();
     Some(Fault { when: when?, what: what? })
-}
-
-/// The failure mode of a fault.
-fn row(fields: &mut Fields<'_>) -> Option<Row> {
-    let mode = fields.text("mode")?;
-    fields.index_of(&mode, "failure mode", Row::all().map(Row::name)).and_then(Row::new)
 }
 
 /// When a fault happens: `at_ms`, or `while` a robot is in a `stage` `of` a task.

@@ -4,7 +4,7 @@ mod made;
 
 use super::{
     FailureRates, Fault, FaultKind, FaultTime, Formation, Give, Method, Needs, Place, PlanSpec,
-    RobotSpec, RoleSpec, Row, Scenario, Seat, Stage, Stay, Take, TaskSpec, Trust, service,
+    RobotSpec, RoleSpec, Row, Scenario, Seat, Stage, Stay, Take, TaskSpec, Trust, service, usual,
 };
 use crate::team::service::{BRING, FETCH, ORDER};
 use crate::team::{Capability, CapabilitySet, Reliability, Role, Skill};
@@ -139,7 +139,7 @@ fn fault() -> impl Strategy<Value = Fault> {
         time,
         after_ms,
     });
-    let modes = prop::sample::select(Row::all().collect::<Vec<_>>());
+    let modes = prop::sample::select(Row::all(usual().robot()).collect::<Vec<_>>());
     let rows = modes.clone();
     let what = prop_oneof![
         rows.prop_map(FaultKind::Auctioneer),
@@ -200,6 +200,7 @@ fn scenario() -> impl Strategy<Value = Scenario> {
             robots: (skills.into_iter().enumerate())
                 .map(|(number, (skills, rates))| RobotSpec {
                     name: format!("r{number}"),
+                    file: usual(),
                     fails: fails(&skills, &rates),
                     skills,
                     start: Place(number),

@@ -1,8 +1,8 @@
 //! Writing a team as a file.
 
 use super::{
-    FAULTS, FORMAT, Fault, FaultKind, FaultTime, Give, Needs, RoleSpec, Scenario, Seat, Take,
-    TaskSpec, Trust,
+    FAULTS, FORMAT, Fault, FaultKind, FaultTime, Give, Needs, RoleSpec, Row, Scenario, Seat, Take,
+    TaskSpec, Trust, USUAL,
 };
 use crate::team::{CapabilitySet, Reliability, Skill};
 use crate::toml_text::quoted;
@@ -89,6 +89,9 @@ impl Lines<'_> {
         for robot in &it.robots {
             self.head("[[robot]]");
             self.line("name", quoted(&robot.name));
+            if robot.file.source() != USUAL {
+                self.line("file", quoted(robot.file.source()));
+            }
             self.line("at", self.place(robot.start));
             let skilled = |it: &Skill| self.skilled(it, robot.fails.of(it.capability));
             let skills: Vec<_> = robot.skills.iter().map(skilled).collect();
@@ -214,6 +217,11 @@ impl Lines<'_> {
         self.line("give_ms", role.give_ms);
     }
 
+    fn mode(&mut self, robot: usize, mode: Row) {
+        let name = self.scenario.robots.get(robot).map_or("?", |it| mode.name(it.file.robot()));
+        self.line("mode", quoted(name));
+    }
+
     fn fault(&mut self, fault: &Fault) {
         let it = self.scenario;
         match fault.when {
@@ -229,9 +237,9 @@ impl Lines<'_> {
         match fault.what {
             FaultKind::Robot(robot, mode) => {
                 self.line("robot", quoted(&it.robots[robot].name));
-                self.line("mode", quoted(mode.name()));
+                self.mode(robot, mode);
             }
-            FaultKind::Auctioneer(mode) => self.line("mode", quoted(mode.name())),
+            FaultKind::Auctioneer(mode) => self.mode(0, mode),
             FaultKind::Shifted(task) => self.line("shifts", quoted(&it.tasks[task].name)),
             FaultKind::Turned(task, hides) => {
                 self.line("turns", quoted(&it.tasks[task].name));

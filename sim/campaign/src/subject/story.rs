@@ -3,14 +3,17 @@
 use super::{Robot, Subject};
 use cotama_core::units::Millis;
 use cotama_models::robots::{Moment, RobotFile};
-use cotama_models::team::scenario::{self, FaultKind, FaultTime};
-use cotama_sim::{fleet, robots};
+use cotama_models::team::scenario::{self, FaultKind, FaultTime, Row};
+use cotama_sim::robots;
 
 impl Subject<'_> {
     /// Returns a fault of a team in words.
     pub(crate) fn story_of(&self, fault: &scenario::Fault) -> String {
         let Robot::Team(team, _) = &self.robot else { return String::new() };
         let robot = |it: usize| team.robots.get(it).map_or("?", |it| it.name.as_str());
+        let words = |it: usize, row: Row| {
+            team.robots.get(it).map_or_else(String::new, |it| row.words(it.file.robot()))
+        };
         let task = |it: usize| team.tasks.get(it).map_or("?", |it| it.name.as_str());
         let when = match fault.when {
             FaultTime::At(at) => format!("at {}.{:03} s", at / 1_000, at % 1_000),
@@ -22,12 +25,11 @@ impl Subject<'_> {
             ),
         };
         match fault.what {
-            FaultKind::Robot(it, mode) => {
-                format!("{when}, {} fails: {}", robot(it), fleet::trace::Trace::words(mode))
+            FaultKind::Robot(it, row) => {
+                format!("{when}, {} fails: {}", robot(it), words(it, row))
             }
-            FaultKind::Auctioneer(mode) => {
-                let words = fleet::trace::Trace::words(mode);
-                format!("{when}, whoever gives tasks out fails: {words}")
+            FaultKind::Auctioneer(row) => {
+                format!("{when}, whoever gives tasks out fails: {}", words(0, row))
             }
             FaultKind::Shifted(it) => format!("{when}, the object of {} is shifted", task(it)),
             FaultKind::Turned(it, _) => format!("{when}, the object of {} is turned", task(it)),

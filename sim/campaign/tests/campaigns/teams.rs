@@ -32,7 +32,10 @@ fn found(
     let settings = Settings { runs: 300, requirements, strategy, ..Settings::new(false) };
     let mut space = Space::of_team(team, Rates::Even, 1..=3);
     space.kinds.retain(|it| match it.kind {
-        Kind::Robot { mode, .. } => modes.is_none_or(|all| all.contains(&mode.name())),
+        Kind::Robot { robot, mode } => {
+            let name = mode.name(team.robots[robot].file.robot());
+            modes.is_none_or(|all| all.contains(&name))
+        }
         _ => true,
     });
     let subject = Subject::of_team(team.clone(), planted);

@@ -1,6 +1,6 @@
 //! A robot of a team between two rounds: what it was told to do does not change meanwhile.
 
-use super::supervisors::{KIND, Kind};
+use super::supervisors::Kind;
 use crate::body::Drive;
 use crate::robots::failing::{Demand, Failures, mode};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
@@ -34,6 +34,7 @@ impl Orders {
 /// The motion of a robot, its failures and its energy.
 #[derive(Clone, Debug)]
 pub(super) struct Moving {
+    kind: &'static Kind,
     pub(super) drive: Drive,
     pub(super) failures: Failures,
     pub(super) adapted: Adapted,
@@ -47,9 +48,9 @@ pub(super) struct Moving {
 }
 
 impl Moving {
-    pub(super) fn new() -> Self {
-        let kind: &Kind = &KIND;
+    pub(super) fn new(kind: &'static Kind) -> Self {
         Self {
+            kind,
             drive: Drive::new(kind.body.acceleration.max(1)),
             failures: Failures { period: Millis(kind.period()), ..Failures::default() },
             adapted: Adapted::default(),
@@ -61,12 +62,12 @@ impl Moving {
     }
 
     pub(super) fn thinks(&self) -> bool {
-        self.failures.thinks(KIND.robot)
+        self.failures.thinks(self.kind.robot)
     }
 
     /// Returns what is demanded of the motors.
     pub(super) fn demand(&self, orders: &Orders) -> Demand {
-        let (kind, mode): (&Kind, _) = (&KIND, mode(KIND.robot, orders.place));
+        let (kind, mode) = (self.kind, mode(self.kind.robot, orders.place));
         let runs = orders.configuration().and_then(|it| kind.robot.configurations.get(it));
         let left = u64::from(self.adapted.speed(&kind.tables, Millis(self.now), mode));
         let speed = runs.filter(|_| orders.permits).map_or(0, |it| it.speed.0 * left / 1_000);
@@ -82,7 +83,7 @@ impl Moving {
 
     /// The robot goes on, period by period, until now; observers look.
     pub(super) fn go(&mut self, now: u64, orders: &Orders) {
-        let kind: &Kind = &KIND;
+        let kind = self.kind;
         let period = kind.period();
         while self.now + period <= now {
             let (before, start) = (self.drive, Millis(self.now));
@@ -117,14 +118,14 @@ impl Moving {
 
     /// Observers look whether settings are still needed, and whether what is lost works again.
     fn see(&mut self, now: Millis) {
-        let kind: &Kind = &KIND;
+        let kind = self.kind;
         let broken = self.failures.broken_losses(kind.robot, &kind.tables);
         self.adapted.see(self.failures.shown(&kind.tables), broken, now);
     }
 
     /// In how many periods from now on it goes on as in the last one, which was even.
     fn alike(&self, orders: &Orders, end: Millimetres) -> u64 {
-        let kind: &Kind = &KIND;
+        let kind = self.kind;
         let period = kind.period();
         // A change at the start of a period changes that period.
         let until = |it: Millis| it.0.saturating_sub(self.now).div_ceil(period);
@@ -139,30 +140,30 @@ impl Moving {
     /// When failures and settings change by themselves next, from now on.
     pub(super) fn changes(&self) -> impl Iterator<Item = Millis> {
         let just_before = Millis(self.now.saturating_sub(1));
-        let failures = self.failures.changes(KIND.robot, just_before);
-        let shown = self.failures.shown(&KIND.tables);
-        let settings = self.adapted.ends_at(&KIND.tables, shown, just_before);
+        let failures = self.failures.changes(self.kind.robot, just_before);
+        let shown = self.failures.shown(&self.kind.tables);
+        let settings = self.adapted.ends_at(&self.kind.tables, shown, just_before);
         failures.into_iter().chain(settings)
     }
 
     /// In how many periods observers see nothing new.
     pub(super) fn unseen_for(&self, orders: &Orders) -> u64 {
-        self.failures.unseen_for(KIND.robot, orders.place)
+        self.failures.unseen_for(self.kind.robot, orders.place)
     }
 
     /// Whether it would go on at its speed for a period.
     pub(super) fn is_steady(&self, orders: &Orders) -> bool {
         let mut next = self.drive;
         let now = Millis(self.now);
-        self.failures.go(KIND.robot, now, &self.demand(orders), &mut next);
+        self.failures.go(self.kind.robot, now, &self.demand(orders), &mut next);
         next.speed() == self.drive.speed()
     }
 
     /// Draws its power for some periods.
     fn draw(&mut self, orders: &Orders, periods: u64) {
-        let motion = KIND.body.motion_power.at(self.drive.speed()).0;
-        let power = motion.saturating_add(KIND.power(orders.configuration()).0);
-        let time = KIND.period().saturating_mul(periods);
+        let motion = self.kind.body.motion_power.at(self.drive.speed()).0;
+        let power = motion.saturating_add(self.kind.power(orders.configuration()).0);
+        let time = self.kind.period().saturating_mul(periods);
         self.energy_uj = self.energy_uj.saturating_add(power.saturating_mul(time));
     }
 }

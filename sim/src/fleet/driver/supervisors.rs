@@ -1,18 +1,17 @@
-//! The supervisors of the robots of a team: made of their file once, and shared by all.
+//! The supervisors of the robots of a team: made of each file once, and shared by its robots.
 
-use crate::robots::{SLOTS, SMALL};
 use cotama_core::player::{Loaded, Packed};
 use cotama_core::units::{Millis, Milliwatts};
 use cotama_models::level::{Cause, Level, Tables, Told};
 use cotama_models::robots::supervisors;
-use cotama_models::robots::{Body, OwnedTables, Robot, members};
-use cotama_models::team::scenario;
-use std::sync::LazyLock;
+use cotama_models::robots::{Body, OwnedTables, Robot, RobotFile, members};
+use cotama_models::team::scenario::{self, SLOTS, WORDS};
+use std::sync::{Mutex, PoisonError};
 
 /// The supervisors of a robot, running.
-pub(super) type Supervisors = Level<'static, Loaded<'static, SMALL, 0, SLOTS>, SMALL, 0, SLOTS>;
+pub(super) type Supervisors = Level<'static, Loaded<'static, WORDS, 0, SLOTS>, WORDS, 0, SLOTS>;
 
-/// The parts that all robots of a team share.
+/// The parts that all robots of a file share.
 #[derive(Debug)]
 pub(super) struct Kind {
     pub(super) robot: &'static Robot,
@@ -29,25 +28,19 @@ pub(super) struct Kind {
 /// A module is started anew, or set, no more often before a report of it is told.
 const MOST_TRIES: usize = 20;
 
-pub(super) static KIND: LazyLock<Kind> = LazyLock::new(|| {
-    let robot = scenario::robot().expect("it is shipped");
-    let steps = scenario::steps();
-    let system = supervisors::of_mission(robot, &steps);
-    let tables: &'static OwnedTables = Box::leak(Box::new(OwnedTables::of(robot, &steps, &system)));
-    let tables: &'static Tables<'static> = Box::leak(Box::new(tables.view()));
-    let system = system.leak();
-    let packed = Packed::of(&system).expect("a test plays it");
-    let packed: &'static Packed<SMALL, 0, SLOTS> = Box::leak(Box::new(packed));
-    let configurations = 0..robot.configurations.len();
-    Kind {
-        robot,
-        body: robot.body.as_ref().expect("the shipped robot has a body"),
-        tables: *tables,
-        at_rest: Level::start(tables, packed.load(&system)),
-        observation: system.components.iter().position(|it| it.name == "gom"),
-        powers: configurations.map(|it| power(robot, it)).collect(),
+/// The kinds that were made so far: one for each robot's file, kept for good.
+static KINDS: Mutex<Vec<(RobotFile, &'static Kind)>> = Mutex::new(Vec::new());
+
+/// Returns the kind of the robots of this file.
+pub(super) fn kind_of(file: &RobotFile) -> &'static Kind {
+    let mut kinds = KINDS.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = kinds.iter().find(|it| it.0 == *file) {
+        return known.1;
     }
-});
+    let kind: &'static Kind = Box::leak(Box::new(Kind::of(Box::leak(Box::new(file.clone())))));
+    kinds.push((file.clone(), kind));
+    kind
+}
 
 /// Returns the power of the hardware that a configuration uses.
 fn power(robot: &Robot, configuration: usize) -> Milliwatts {
@@ -59,6 +52,27 @@ fn power(robot: &Robot, configuration: usize) -> Milliwatts {
 }
 
 impl Kind {
+    /// Makes the supervisors of a robot's file, which the reader of teams found to be playable.
+    fn of(file: &'static RobotFile) -> Self {
+        let robot = file.robot();
+        let steps = scenario::steps();
+        let system = supervisors::of_mission(robot, &steps);
+        let tables = Box::leak(Box::new(OwnedTables::of(robot, &steps, &system)));
+        let tables: &'static Tables<'static> = Box::leak(Box::new(tables.view()));
+        let system = system.leak();
+        let packed = Packed::of(&system).expect("a team's robots can be played");
+        let packed: &'static Packed<WORDS, 0, SLOTS> = Box::leak(Box::new(packed));
+        let configurations = 0..robot.configurations.len();
+        Self {
+            robot,
+            body: robot.body.as_ref().expect("a team's robots have bodies"),
+            tables: *tables,
+            at_rest: Level::start(tables, packed.load(&system)),
+            observation: system.components.iter().position(|it| it.name == "gom"),
+            powers: configurations.map(|it| power(robot, it)).collect(),
+        }
+    }
+
     /// The supervisors of a robot without a task to which these reports were told before: what is
     /// lost stays known.
     pub(super) fn at_rest(&self, told: &[usize]) -> Supervisors {

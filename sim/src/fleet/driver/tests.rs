@@ -1,10 +1,23 @@
 //! One robot and one task.
 
-use super::{Driver, Millimetres, Row, Stage, period};
+use super::{Driver, Millimetres, Row, Stage};
+use cotama_models::team::scenario::usual;
+
+fn driver(every_round: bool) -> Driver {
+    Driver::new(&usual(), every_round)
+}
+
+fn row(name: &str) -> Row {
+    Row::named(usual().robot(), name).unwrap()
+}
+
+fn name(row: Row) -> String {
+    row.name(usual().robot()).to_owned()
+}
 
 /// When the stages of a task begin, with a failure at 20 s; and how it ends.
 fn course(mode: Option<&str>, every_round: bool) -> Vec<(u64, Stage)> {
-    let mut driver = Driver::new(every_round);
+    let mut driver = driver(every_round);
     driver.begin(0, [6_000, 9_000]);
     let (mut stages, mut now, mut since) = (vec![(0, driver.stage())], 0, 0);
     let mut failure = mode;
@@ -12,7 +25,7 @@ fn course(mode: Option<&str>, every_round: bool) -> Vec<(u64, Stage)> {
         if now >= 20_000
             && let Some(mode) = failure.take()
         {
-            driver.fail(now, Row::named(mode).unwrap());
+            driver.fail(now, row(mode));
         }
         let takes = matches!(driver.stage(), Stage::Takes | Stage::Gives);
         driver.round(now, takes && now >= since + 5_000);
@@ -23,8 +36,8 @@ fn course(mode: Option<&str>, every_round: bool) -> Vec<(u64, Stage)> {
             break;
         }
         let hands = matches!(driver.stage(), Stage::Takes | Stage::Gives);
-        let hands = hands.then_some((since + 5_000).max(now + period()));
-        let fails = failure.map(|_| 20_000.max(now + period()));
+        let hands = hands.then_some((since + 5_000).max(now + driver.period()));
+        let fails = failure.map(|_| 20_000.max(now + driver.period()));
         let Some(next) = driver.next_round().into_iter().chain(hands).chain(fails).min() else {
             break;
         };
@@ -35,7 +48,8 @@ fn course(mode: Option<&str>, every_round: bool) -> Vec<(u64, Stage)> {
 
 #[test]
 fn rounds_that_are_left_out_change_nothing() {
-    for mode in Row::all().map(|it| Some(it.name())).chain([None]) {
+    for mode in Row::all(usual().robot()).map(|it| Some(name(it))).chain([None]) {
+        let mode = mode.as_deref();
         assert_eq!(course(mode, false), course(mode, true), "{mode:?}");
     }
 }
@@ -64,12 +78,12 @@ fn an_emergency_stop_ends_the_mission_and_lost_sonars_slow_it() {
 /// tenths until five seconds after the last of them.
 #[test]
 fn a_flag_stays_up_while_another_failure_holds_it() {
-    let mut driver = Driver::new(true);
+    let mut driver = driver(true);
     driver.begin(0, [60_000, 60_000]);
     let mut slowed = Vec::new();
     for now in (0..60_000).step_by(100) {
         if now == 20_000 || now == 26_000 {
-            driver.fail(now, Row::named("P3D2").unwrap());
+            driver.fail(now, row("P3D2"));
         }
         driver.round(now, false);
         let slow = now > 20_000 && driver.moving.drive.speed().0 < 300;
@@ -83,13 +97,13 @@ fn a_flag_stays_up_while_another_failure_holds_it() {
 
 /// Drives for 20 s at 300 mm/s, then loses its laptop or its role.
 fn stands_after(mode: Option<&str>) -> u64 {
-    let mut driver = Driver::new(true);
+    let mut driver = driver(true);
     driver.begin(0, [60_000, 60_000]);
     for now in (0..=20_000).step_by(100) {
         driver.round(now, false);
     }
     let before = driver.driven_mm(20_000);
-    mode.into_iter().for_each(|it| driver.fail(20_000, Row::named(it).unwrap()));
+    mode.into_iter().for_each(|it| driver.fail(20_000, row(it)));
     driver.stand_mm(20_000) - before
 }
 
@@ -103,10 +117,10 @@ fn a_robot_brakes_at_the_end_of_its_role_and_coasts_without_its_laptop() {
 
 #[test]
 fn a_motor_that_runs_away_is_cut_off_and_moved_meanwhile() {
-    let mut driver = Driver::new(true);
+    let mut driver = driver(true);
     (0..=20_000).step_by(100).for_each(|now| {
         if now == 10_000 {
-            driver.fail(now, Row::named("MOT4").unwrap());
+            driver.fail(now, row("MOT4"));
         }
         driver.round(now, false);
     });
@@ -117,11 +131,11 @@ fn a_motor_that_runs_away_is_cut_off_and_moved_meanwhile() {
 
 #[test]
 fn losses_stay_known_in_the_next_task() {
-    let mut driver = Driver::new(true);
+    let mut driver = driver(true);
     driver.begin(0, [60_000, 60_000]);
     for now in (0..40_000).step_by(100) {
         if now == 10_000 {
-            driver.fail(now, Row::named("SON1").unwrap());
+            driver.fail(now, row("SON1"));
         }
         driver.round(now, false);
     }
@@ -145,16 +159,16 @@ fn a_robot_that_asks_in_vain_is_stopped_after_two_minutes() {
 /// A robot that gave its task up finds out again what is in its way.
 #[test]
 fn a_failure_without_a_loss_is_found_again_in_the_next_task() {
-    let mut driver = Driver::new(true);
+    let mut driver = driver(true);
     driver.begin(0, [60_000, 60_000]);
     let mut found = Vec::new();
     for now in (0..60_000).step_by(100) {
         match now {
-            10_000 => driver.fail(now, Row::named("MOT3").unwrap()),
+            10_000 => driver.fail(now, row("MOT3")),
             30_000 => driver.begin(now, [60_000, 60_000]),
             _ => {}
         }
-        found.extend(driver.round(now, false).found.map(|it| (now, it.name())));
+        found.extend(driver.round(now, false).found.map(|it| (now, name(it))));
     }
-    assert_eq!(found, [(10_500, "MOT3"), (32_600, "MOT3")]);
+    assert_eq!(found, [(10_500, "MOT3".into()), (32_600, "MOT3".into())]);
 }

@@ -11,7 +11,7 @@ use crate::streams::Streams;
 use cotama_core::team::Combine;
 use cotama_models::team::scenario::{
     FailureRates, Fault, FaultKind, FaultTime, Floor, Give, Needs, Place, PlanSpec, RobotSpec,
-    RoleSpec, Scenario, Stage, Stay, Take, TaskSpec, Trust,
+    RoleSpec, Scenario, Stage, Stay, Take, TaskSpec, Trust, usual,
 };
 use cotama_models::team::service::{GRASP_2F, MOVE};
 use cotama_models::team::{CapabilitySet, Probability, Reliability, Skill};
@@ -23,6 +23,7 @@ fn robot(name: &str, start: usize, fails: u16, known: Reliability) -> RobotSpec 
     let grasps = Skill { capability: GRASP_2F, reliability: known };
     RobotSpec {
         name: name.into(),
+        file: usual(),
         skills: vec![Skill::certain(MOVE), grasps],
         fails: FailureRates::NONE.with(GRASP_2F, fails),
         start: Place(start),

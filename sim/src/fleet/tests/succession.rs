@@ -4,7 +4,7 @@ use crate::fleet::record::{Fate, Record, Run};
 use crate::fleet::run_recorded;
 use crate::fleet::scenarios::{FleetOptions, fleet};
 use crate::fleet::trace::{Trace, replay};
-use cotama_models::team::scenario::{Fault, FaultKind, FaultTime, Row, Scenario, Seat};
+use cotama_models::team::scenario::{Fault, FaultKind, FaultTime, Row, Scenario, Seat, usual};
 
 /// Eight robots, of which the first gives sixteen tasks out; nothing else fails.
 fn eight(loss_permille: u16, seed: u64) -> Scenario {
@@ -14,7 +14,7 @@ fn eight(loss_permille: u16, seed: u64) -> Scenario {
 
 /// Laptops that go down: of whoever gives tasks out then, or of a robot.
 fn kill(at_ms: u64, robot: Option<usize>) -> Fault {
-    let row = Row::named("PWR1").unwrap();
+    let row = Row::named(usual().robot(), "PWR1").unwrap();
     let what = robot.map_or(FaultKind::Auctioneer(row), |it| FaultKind::Robot(it, row));
     Fault { when: FaultTime::At(at_ms), what }
 }

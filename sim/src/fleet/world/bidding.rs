@@ -5,7 +5,7 @@ use super::{Event, World};
 use crate::fleet::allocate::is_shared;
 use crate::fleet::bid::{Offer, Whereabouts};
 use crate::fleet::message::{Message, Party};
-use cotama_models::team::scenario::{Outlook, Quote, RoleSpec, Spot, Take, pace};
+use cotama_models::team::scenario::{Outlook, Quote, RoleSpec, Spot, Take};
 use cotama_models::team::{CapabilitySet, Skill};
 use std::rc::Rc;
 
@@ -148,7 +148,9 @@ impl World<'_> {
     fn quote(&self, robot: usize, task: usize, role: &RoleSpec, skills: &[Skill]) -> Option<Quote> {
         let agent = &self.robots[robot];
         let able = self.able(robot, task, role);
+        let spec = &self.scenario.robots[robot];
         let outlook = Outlook {
+            robot: spec,
             skills,
             able,
             from: agent.spot,
@@ -157,7 +159,7 @@ impl World<'_> {
             holds: role.take == Take::Object && agent.holds == Some(task),
         };
         let quote = self.scenario.quote(role, &outlook)?;
-        let slowed = pace(0) > Some(outlook.pace);
+        let slowed = spec.pace(0) > Some(outlook.pace);
         if self.planted == Some(super::Planted::BidsInSeconds) && slowed {
             return Some(Quote { cost_ms: quote.cost_ms / 1_000, ..quote });
         }

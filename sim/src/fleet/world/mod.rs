@@ -23,7 +23,7 @@ use crate::streams::Streams;
 use auctioneer::Auctioneer;
 use cotama_models::team::CapabilitySet;
 use cotama_models::team::scenario::Spot;
-use cotama_models::team::scenario::{FaultKind, FaultTime, Row, Scenario, Stage, Trust};
+use cotama_models::team::scenario::{FaultKind, FaultTime, RobotSpec, Row, Scenario, Stage, Trust};
 use office::Follows;
 use robot::{Agent, Duty};
 
@@ -104,8 +104,8 @@ impl<'s> World<'s> {
     pub(super) fn new(scenario: &'s Scenario, recorded: bool, planted: Option<Planted>) -> Self {
         let tasks = scenario.tasks.len();
         let streams = Streams::new(scenario.seed);
-        let agent = |spec: &cotama_models::team::scenario::RobotSpec| {
-            let driver = Driver::new(false);
+        let agent = |spec: &RobotSpec| {
+            let driver = Driver::new(&spec.file, false);
             let stale = planted == Some(Planted::StaleReliability);
             let trust = if stale { Trust::Stated } else { scenario.trust };
             let skills = Skills::new(spec, &scenario.skills, trust, streams);
@@ -159,7 +159,9 @@ impl<'s> World<'s> {
     /// Takes rounds of decisional components in which nothing happens, too: they change nothing.
     #[cfg(test)]
     pub(super) fn in_every_round(mut self) -> Self {
-        self.robots.iter_mut().for_each(|it| it.driver = Driver::new(true));
+        let specs = &self.scenario.robots;
+        let driver = |it: &RobotSpec| Driver::new(&it.file, true);
+        self.robots.iter_mut().zip(specs).for_each(|it| it.0.driver = driver(it.1));
         self
     }
 
@@ -251,8 +253,9 @@ impl<'s> World<'s> {
             FaultKind::Robot(robot, mode) => self.fails(robot, mode),
             FaultKind::Auctioneer(mode) => {
                 let address = self.auctioneer.address;
-                if self.auctioneer.up && address < self.robots.len() {
-                    self.fails(address, mode);
+                let row = self.scenario.row_of(address, mode).filter(|_| self.auctioneer.up);
+                if let Some(row) = row {
+                    self.fails(address, row);
                 }
             }
             FaultKind::Shifted(task) => {
@@ -267,8 +270,14 @@ impl<'s> World<'s> {
         }
     }
 
+    /// Returns the short name of a row of a robot's file.
+    fn mode(&self, robot: usize, row: Row) -> String {
+        row.name(self.scenario.robots[robot].file.robot()).to_owned()
+    }
+
     fn fails(&mut self, robot: usize, mode: Row) {
-        self.note(|t_ms| Record::Fails { t_ms, robot, mode });
+        let name = self.mode(robot, mode);
+        self.note(|t_ms| Record::Fails { t_ms, robot, mode: name });
         self.robots[robot].driver.fail(self.now, mode);
         if self.robots[robot].driver.thinks() {
             self.wake(robot);

@@ -3,7 +3,6 @@
 use super::robot::{Agent, Duty, Work};
 use super::{Event, World};
 use crate::fleet::bid::Whereabouts;
-use crate::fleet::driver::period;
 use crate::fleet::message::Status;
 use crate::fleet::record::Record;
 use cotama_models::team::ErrorClass;
@@ -55,7 +54,8 @@ impl World<'_> {
             && !self.robots[robot].found.contains(&mode)
         {
             self.robots[robot].found.push(mode);
-            self.note(|t_ms| Record::Found { t_ms, robot, mode });
+            let name = self.mode(robot, mode);
+            self.note(|t_ms| Record::Found { t_ms, robot, mode: name });
         }
         let (stage, before) = (self.robots[robot].driver.stage(), self.robots[robot].stage);
         if let Some(it) = driven.configuration
@@ -264,8 +264,9 @@ impl World<'_> {
 
     /// The next round of the decisional component is when something can happen.
     pub(super) fn wake(&mut self, robot: usize) {
-        let soon = (self.now + 1).next_multiple_of(period());
-        let hands = self.hands(robot).map(|it| it.next_multiple_of(period()));
+        let period = self.robots[robot].driver.period();
+        let soon = (self.now + 1).next_multiple_of(period);
+        let hands = self.hands(robot).map(|it| it.next_multiple_of(period));
         let agent = &mut self.robots[robot];
         if !agent.driver.thinks() {
             return;
@@ -306,7 +307,8 @@ impl World<'_> {
         // takes time.
         let Some(pace) = agent.driver.pace() else { return Some(self.now - work.since) };
         let [takes, gives] = agent.goals;
-        let second = drive_ms(self.scenario.floor.distance(takes, gives)?, pace);
+        let body = self.scenario.robots[robot].file.robot();
+        let second = drive_ms(body, self.scenario.floor.distance(takes, gives)?, pace);
         let left = agent.driver.left_mm(self.now) * 1_000 / pace;
         let spent = self.now - work.since;
         let rest = match agent.stage {
