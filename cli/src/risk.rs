@@ -161,7 +161,15 @@ fn coherence(args: &CoherenceArgs, screen: &Screen) -> Result<Exit, Failure> {
     for path in [&args.svg, &args.dot].into_iter().flatten() {
         output::place(path)?;
     }
-    let network = network(&args.network, screen)?;
+    let is_data = Path::new(&args.network).extension().is_some_and(|it| it == "csv");
+    let (network, learned) = if is_data {
+        let bins = args.bins.unwrap_or(3);
+        let (network, from) = learn::of_measurements(&args.network, bins)?;
+        (network, Some(from))
+    } else {
+        idle(&[("--bins", args.bins.is_some(), "data in CSV")])?;
+        (network(&args.network, screen)?, None)
+    };
     let mut all = coherences(&network).map_err(unanswered)?;
     all.sort_by(|a, b| b.eta.total_cmp(&a.eta).then((a.x, a.y).cmp(&(b.x, b.y))));
     if let Some(path) = &args.svg {
@@ -180,6 +188,7 @@ fn coherence(args: &CoherenceArgs, screen: &Screen) -> Result<Exit, Failure> {
     let answer = CoherenceAnswer {
         schema: "cotama/risk-coherence/1",
         network: network.name().to_owned(),
+        learned,
         pairs: all.iter().map(row).collect(),
     };
     if args.json.json {

@@ -47,6 +47,30 @@ pub(crate) struct LearnAnswer {
     /// Accepted over refused steps of `mcmc`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) acceptance: Option<f64>,
+    /// Arcs of graphs that were learned of resampled rows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) bootstrap: Option<BootstrapAnswer>,
+}
+
+/// How often arcs came back in graphs of resampled rows.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct BootstrapAnswer {
+    pub(crate) resamples: u64,
+    /// Arcs that at least one of these graphs has, by the order of the columns.
+    pub(crate) arcs: Vec<ArcRow>,
+}
+
+/// An arc of graphs of resampled rows.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct ArcRow {
+    pub(crate) from: String,
+    pub(crate) to: String,
+    /// Share of the graphs with this arc.
+    pub(crate) share: f64,
+    /// Share of the graphs in which an arc joins the two, in either direction.
+    pub(crate) joined: f64,
 }
 
 /// The answer of `cotama risk infer`.
@@ -72,8 +96,24 @@ pub(crate) struct CoherenceAnswer {
     #[cfg_attr(test, schemars(extend("const" = "cotama/risk-coherence/1")))]
     pub(crate) schema: &'static str,
     pub(crate) network: String,
+    /// The network was learned of data.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) learned: Option<LearnedFrom>,
     /// All pairs of variables, the most coherent first.
     pub(crate) pairs: Vec<CoherentRow>,
+}
+
+/// The data of which a network was learned.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub(crate) struct LearnedFrom {
+    pub(crate) rows: u64,
+    /// Columns of measurements, which were cut into steps of equal frequency.
+    pub(crate) cut: Vec<String>,
+    /// Steps of each of these.
+    pub(crate) bins: u64,
+    /// `optimal`, or `local` where there are too many variables to search all graphs.
+    pub(crate) proof: &'static str,
 }
 
 /// Two variables.

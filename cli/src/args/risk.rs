@@ -32,6 +32,7 @@ Examples:
   $ cotama risk learn runs.csv
   $ cotama risk learn runs.csv --score bdeu --ess 1 --tier asia,smoke --tier tub,lung,bronc
   $ cotama risk learn runs.csv --method k2 --order asia,smoke,tub,lung,bronc,either,xray,dysp
+  $ cotama risk learn runs.csv --bootstrap 50
   $ cotama risk learn runs.csv --out asia.bif --json")]
     Learn(LearnArgs),
     /// Answers how likely the states of a variable are, given states of others
@@ -48,6 +49,7 @@ Examples:
 Examples:
   $ cotama risk coherence two-ways
   $ cotama risk coherence asia --svg asia.svg
+  $ cotama risk observe plaza --seconds 60 > plaza.csv && cotama risk coherence plaza.csv
   $ cotama risk coherence asia --dot asia.dot --json")]
     Coherence(CoherenceArgs),
     /// Makes steps of measurements, so that a network can be learned of them
@@ -124,6 +126,7 @@ Examples:
 Examples:
   $ cotama risk observe sidewalk --seconds 20 | head -3
   $ cotama risk observe plaza --seconds 60 --people 24 > runs.csv
+  $ cotama risk coherence runs.csv
   $ cotama risk discretise runs.csv --rule frequency --out steps.csv
   $ cotama risk learn steps.csv --out plaza.bif && cotama risk coherence plaza.bif")]
     Observe(ObserveArgs),
@@ -209,7 +212,7 @@ pub(crate) struct LearnArgs {
     /// Variables of a tier, with commas: no arc points from a later tier to an earlier one
     #[arg(long, value_name = "A,B,..")]
     pub(crate) tier: Vec<String>,
-    /// The seed of `hill` and `mcmc` [default: 1]
+    /// The seed of `hill`, `mcmc` and --bootstrap [default: 1]
     #[arg(long, value_name = "N", value_parser = whole(0, u64::MAX))]
     pub(crate) seed: Option<u64>,
     /// Steps of `mcmc` [default: 2000]
@@ -218,6 +221,9 @@ pub(crate) struct LearnArgs {
     /// Restarts of `hill` [default: 10]
     #[arg(long, value_name = "N", value_parser = whole(0, 10_000))]
     pub(crate) restarts: Option<u64>,
+    /// Learns graphs of so many resamples of the rows as well, and says how often arcs came back
+    #[arg(long, value_name = "N", value_parser = whole(1, 10_000))]
+    pub(crate) bootstrap: Option<u64>,
     /// The most variables of `exact`
     #[arg(long, value_name = "N", default_value_t = 22, value_parser = whole(1, 26))]
     pub(crate) limit_variables: u64,
@@ -250,8 +256,12 @@ pub(crate) struct InferArgs {
 
 #[derive(Args, Debug)]
 pub(crate) struct CoherenceArgs {
-    /// The name of a network that comes with the program, the path of a BIF file, or `-`
+    /// The name of a network that comes with the program, the path of a BIF file, of data in CSV
+    /// (.csv), of which a network is learned first, or `-`
     pub(crate) network: String,
+    /// Steps of equal frequency that columns of measurements are cut into, of data [default: 3]
+    #[arg(long, value_name = "N", value_parser = whole(2, 256))]
+    pub(crate) bins: Option<u64>,
     /// Draws all pairs into this file (.svg)
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,

@@ -5,7 +5,8 @@ use super::style::{BAD, FAINT, GOOD, HEADING, NAME, NOTICE};
 use super::table::{Cell, Table};
 use super::{visible, wrapped};
 use crate::answers::risk::{
-    ChooseAnswer, CoherenceAnswer, DiscretiseAnswer, InferAnswer, LearnAnswer, SeparatedAnswer,
+    ArcRow, BootstrapAnswer, ChooseAnswer, CoherenceAnswer, DiscretiseAnswer, InferAnswer,
+    LearnAnswer, SeparatedAnswer,
 };
 use std::fmt::Write;
 
@@ -53,9 +54,36 @@ pub(crate) fn learn(answer: &LearnAnswer, columns: &[&str], width: usize) -> Str
     }
     text.push('\n');
     text += &table.render(width);
+    if let Some(it) = &answer.bootstrap {
+        text += &resampled(it, answer, width);
+    }
     let about = "* all equally good graphs of this class have this arrow; others could point the \
         other way, and none says what causes what";
     text + "\n" + &wrapped(about, width, "")
+}
+
+/// How often arcs came back, those of the graph first.
+fn resampled(bootstrap: &BootstrapAnswer, answer: &LearnAnswer, width: usize) -> String {
+    let is_learned =
+        |it: &&ArcRow| answer.parents.get(&it.to).is_some_and(|parents| parents.contains(&it.from));
+    let (mut rows, others): (Vec<_>, Vec<_>) = bootstrap.arcs.iter().partition(is_learned);
+    let learned = rows.len();
+    let is_other = |it: &&ArcRow| it.joined > 0.5 && it.from < it.to;
+    let beside = |it: &&ArcRow| {
+        !rows.iter().any(|own| own.from == it.to && own.to == it.from) && is_other(it)
+    };
+    let more: Vec<_> = others.into_iter().filter(beside).collect();
+    rows.extend(more);
+    let head = ["arc", "this way", "either way"].map(Cell::faint).to_vec();
+    let mut table = Table::new(vec![head]);
+    let percent = |share: f64| Cell::plain(format!("{:.1} %", 100.0 * share));
+    for (number, it) in rows.iter().enumerate() {
+        let arc = format!("{} -> {}", visible(&it.from), visible(&it.to));
+        let arc = if number < learned { arc } else { format!("{arc} (not in the graph)") };
+        table.row(vec![Cell::plain(arc), percent(it.share), percent(it.joined)]);
+    }
+    let head = format!("arcs in graphs of {} resamples", bootstrap.resamples);
+    format!("\n{HEADING}{head}{HEADING:#}\n{}", table.render(width))
 }
 
 /// The posterior, in the order of the states.
@@ -86,6 +114,16 @@ pub(crate) fn infer(answer: &InferAnswer, states: &[String], width: usize) -> St
 /// The pairs, the most coherent first.
 pub(crate) fn coherence(answer: &CoherenceAnswer, width: usize) -> String {
     let mut text = format!("{HEADING}{}{HEADING:#}\n", visible(&answer.network));
+    if let Some(it) = &answer.learned {
+        let rows = grouped(&it.rows.to_string());
+        let proof = if it.proof == "optimal" { "the best graph" } else { "a good graph" };
+        let cut = match it.cut.len() {
+            0 => "no column was cut".to_owned(),
+            cut => format!("{cut} columns cut into {} steps of equal frequency", it.bins),
+        };
+        let line = format!("{proof} by BIC of {rows} rows; {cut}");
+        text += &wrapped(&line, width, "  ");
+    }
     let head = ["", "with", "eta", "information", "joint entropy"].map(Cell::faint).to_vec();
     let mut table = Table::new(vec![head]).left(1);
     for it in answer.pairs.iter().take(SHOWN) {

@@ -1,14 +1,14 @@
 //! `cotama risk learn`.
 
 use super::{cells, idle, mistaken, refused, written};
-use crate::answers::risk::LearnAnswer;
+use crate::answers::risk::{ArcRow, BootstrapAnswer, LearnAnswer, LearnedFrom};
 use crate::args::{LearnArgs, MethodName, ScoreName};
 use crate::exit::{Exit, Failure};
 use crate::output::{self, Screen};
 use crate::render;
 use cotama_risk::{
-    Constraints, Counts, Dag, Data, Families, Limits, Score, Wish, Wrong, chain, exact, hill, k2,
-    upper_bound,
+    ArcCounts, Constraints, Counts, Dag, Data, Families, Limits, Network, Rule, Score, Wish, Wrong,
+    bootstrap, chain, discretise, exact, hill, k2, upper_bound,
 };
 
 const STEPS: u64 = 2_000;
@@ -61,7 +61,15 @@ pub(super) fn learn(args: &LearnArgs, screen: &Screen) -> Result<Exit, Failure> 
         let text = if is_dot { network.to_dot() } else { Ok(network.to_bif()) };
         written(path, &text.map_err(super::unanswered)?, screen)?;
     }
-    let answer = answer(args, &data, &mut families, &found, constant);
+    let mut answer = answer(args, &data, &mut families, &found, constant);
+    if let Some(resamples) = args.bootstrap {
+        let learn = |data: &Data| {
+            let mut families = Families::new(data, score);
+            Ok::<_, Failure>(search(args, data, &mut families, &constraints)?.dag)
+        };
+        let arcs = bootstrap(&data, resamples, args.seed.unwrap_or(1), learn)?;
+        answer.bootstrap = Some(shares(&data, &arcs));
+    }
     if args.json.json {
         Screen::json(&answer)?;
     } else {
@@ -76,13 +84,15 @@ fn refuse_idle(args: &LearnArgs) -> Result<(), Failure> {
     idle(&[
         ("--ess", args.ess.is_some() && args.score == ScoreName::Bic, "the score `bdeu`"),
         ("--order", !args.order.is_empty() && !is(MethodName::K2), "the method `k2`"),
-        ("--steps", args.steps.is_some() && !is(MethodName::Mcmc), "the method `mcmc`"),
-        ("--restarts", args.restarts.is_some() && !is(MethodName::Hill), "the method `hill`"),
         (
             "--seed",
-            args.seed.is_some() && (is(MethodName::K2) || is(MethodName::Exact)),
-            "the methods `hill` and `mcmc`",
+            args.seed.is_some()
+                && (is(MethodName::K2) || is(MethodName::Exact))
+                && args.bootstrap.is_none(),
+            "the methods `hill` and `mcmc`, and of --bootstrap",
         ),
+        ("--steps", args.steps.is_some() && !is(MethodName::Mcmc), "the method `mcmc`"),
+        ("--restarts", args.restarts.is_some() && !is(MethodName::Hill), "the method `hill`"),
     ])
 }
 
@@ -206,5 +216,46 @@ fn answer(
         constant,
         memory_bytes: found.memory_bytes,
         acceptance: found.acceptance,
+        bootstrap: None,
     }
+}
+
+fn shares(data: &Data, arcs: &ArcCounts) -> BootstrapAnswer {
+    let (names, count) = (data.variables(), data.variables().len());
+    let pairs = (0..count).flat_map(|from| (0..count).map(move |to| (from, to)));
+    let share = |of: u64| of as f64 / arcs.resamples as f64;
+    let row = |(from, to): (usize, usize)| ArcRow {
+        from: names[from].name.clone(),
+        to: names[to].name.clone(),
+        share: share(arcs.arc(from, to)),
+        joined: share(arcs.joined(from, to)),
+    };
+    let arcs_seen = pairs.filter(|it| arcs.arc(it.0, it.1) > 0).map(row).collect();
+    BootstrapAnswer { resamples: arcs.resamples, arcs: arcs_seen }
+}
+
+/// Learns a network of measurements: columns of many numbers are cut into so many steps of equal
+/// frequency, and the graph is the best by BIC, or that of hill climbing where there are too many
+/// variables.
+pub(super) fn of_measurements(path: &str, bins: u64) -> Result<(Network, LearnedFrom), Failure> {
+    let (cells, text) = cells(path)?;
+    let rule = Rule::Frequency { bins: bins as usize };
+    let (steps, cuts) = discretise(&cells, &rule).map_err(|it| mistaken("--bins", it))?;
+    let data = steps.into_data().map_err(|wrong| refused(path, text, wrong))?;
+    let none = Constraints::none(data.variables().len()).map_err(|it| mistaken("data", it))?;
+    let mut families = Families::new(&data, Score::Bic);
+    let (dag, proof) = match exact(&mut families, &none, Limits::default()) {
+        Ok(it) => (it.dag, "optimal"),
+        Err(_) => (hill(&mut families, &none, RESTARTS, 1), "local"),
+    };
+    let name = std::path::Path::new(path).file_stem().and_then(|it| it.to_str());
+    let counts = Counts::new(&data, &dag, None);
+    let network = counts.and_then(|it| it.network(name.unwrap_or("network"), 1.0));
+    let from = LearnedFrom {
+        rows: data.rows() as u64,
+        cut: cuts.into_iter().map(|it| it.name).collect(),
+        bins,
+        proof,
+    };
+    Ok((network.map_err(|it| mistaken("data", it))?, from))
 }

@@ -76,6 +76,13 @@ impl Data {
         Ok(Self { variables, columns })
     }
 
+    /// Returns the same variables with these rows, by their numbers, in this order.
+    pub(crate) fn of_rows(&self, rows: &[usize]) -> Self {
+        let column = |it: &Vec<u16>| rows.iter().filter_map(|row| it.get(*row)).copied().collect();
+        let columns = self.columns.iter().map(column).collect();
+        Self { variables: self.variables.clone(), columns }
+    }
+
     /// The variables, in the order of the columns.
     pub fn variables(&self) -> &[Variable] {
         &self.variables

@@ -1,5 +1,6 @@
 //! Structures learned from data: scores, searches, and what each search proves.
 
+mod bootstrap;
 mod chain;
 mod constraints;
 mod exact;
@@ -9,6 +10,7 @@ mod states;
 mod subsets;
 mod tail;
 
+pub use bootstrap::{ArcCounts, bootstrap};
 pub use chain::{Chain, chain};
 pub use constraints::{Constraints, Wish};
 pub use exact::{Exact, Limits, TooMuch, exact, memory, upper_bound};

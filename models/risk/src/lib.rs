@@ -55,8 +55,8 @@ pub use embedded::{EMBEDDED, TWO_WAYS};
 pub use fixed::Fixed;
 pub use infer::{NoAnswer, Plan, Posterior, Scratch};
 pub use learn::{
-    Chain, Constraints, Exact, Families, Limits, Score, TooMuch, Wish, chain, exact, hill, k2,
-    memory, upper_bound,
+    ArcCounts, Chain, Constraints, Exact, Families, Limits, Score, TooMuch, Wish, bootstrap, chain,
+    exact, hill, k2, memory, upper_bound,
 };
 pub use network::{MAX_CELLS, Network, Node};
 pub use parameters::Counts;
