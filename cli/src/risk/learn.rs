@@ -223,12 +223,11 @@ fn answer(
 fn shares(data: &Data, arcs: &ArcCounts) -> BootstrapAnswer {
     let (names, count) = (data.variables(), data.variables().len());
     let pairs = (0..count).flat_map(|from| (0..count).map(move |to| (from, to)));
-    let share = |of: u64| of as f64 / arcs.resamples as f64;
     let row = |(from, to): (usize, usize)| ArcRow {
         from: names[from].name.clone(),
         to: names[to].name.clone(),
-        share: share(arcs.arc(from, to)),
-        joined: share(arcs.joined(from, to)),
+        share: arcs.share(arcs.arc(from, to)),
+        joined: arcs.share(arcs.joined(from, to)),
     };
     let arcs_seen = pairs.filter(|it| arcs.arc(it.0, it.1) > 0).map(row).collect();
     BootstrapAnswer { resamples: arcs.resamples, arcs: arcs_seen }

@@ -24,6 +24,11 @@ impl ArcCounts {
     pub fn joined(&self, a: usize, b: usize) -> u64 {
         self.arc(a, b) + self.arc(b, a)
     }
+
+    /// Returns the share of the graphs that so many are.
+    pub fn share(&self, graphs: u64) -> f64 {
+        graphs as f64 / self.resamples as f64
+    }
 }
 
 /// Learns a graph of each of so many resamples: as many rows as there are, drawn with replacement

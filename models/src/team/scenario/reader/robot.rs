@@ -82,13 +82,11 @@ fn file(fields: &mut Fields<'_>, files: &mut Files<'_>) -> Option<RobotFile> {
             fields.report(Diagnostic::new(name.span, message, "not for a team").help(help));
             None
         }
-        None => unknown_file(fields, &name),
+        None => {
+            fields.index_of(&name, "robot", EMBEDDED.iter().map(|it| it.name));
+            None
+        }
     }
-}
-
-fn unknown_file(fields: &Fields<'_>, name: &Spanned<String>) -> Option<RobotFile> {
-    let shipped = EMBEDDED.iter().map(|it| it.name);
-    fields.index_of(name, "robot", shipped).and_then(|_| None)
 }
 
 /// When a robot joins the team, and when it leaves.
