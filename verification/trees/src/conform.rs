@@ -18,7 +18,7 @@ pub struct Row {
     pub line: usize,
     /// Number of the run.
     pub run: String,
-    /// What is done: `tick`, `once` or `halt`.
+    /// Operation: `tick`, `once` or `halt`.
     pub op: Op,
     /// Milliseconds that pass before.
     pub wait: i64,
@@ -32,7 +32,7 @@ pub struct Row {
     pub blackboard: String,
 }
 
-/// What is done to a tree.
+/// Operation on a tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Op {
     /// `tickExactlyOnce`.
@@ -92,7 +92,7 @@ pub fn read(text: &str) -> Result<Vec<Row>, (usize, String)> {
     Ok(rows)
 }
 
-/// How many runs and rows were accepted.
+/// Numbers of runs and rows that were accepted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Accepted {
     /// Runs.
@@ -108,7 +108,7 @@ pub struct Departure {
     pub row: Row,
     /// The column that differs: `events`, `status`, `blackboard` or `set`.
     pub column: &'static str,
-    /// What the tree does there with the same answers.
+    /// Row of the tree there with the same answers.
     pub allowed: String,
     /// The question that the row does not answer, or answers with what is not allowed.
     pub asked: Option<String>,

@@ -13,7 +13,7 @@ pub struct Place {
     pub column: u32,
 }
 
-/// How bad a finding about a file is.
+/// Severity of a finding about a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
     /// The library loads the file and does something else than what was meant.
@@ -37,7 +37,7 @@ impl Severity {
 /// One finding about a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// How bad it is.
+    /// Severity.
     pub severity: Severity,
     /// Name of the file, as it was given or included.
     pub file: String,

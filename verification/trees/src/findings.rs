@@ -4,7 +4,7 @@ use crate::explore::{Assumptions, End, Facts, Limits, Pair, Run, Space};
 use crate::kinds::LeafKind;
 use crate::tree::{Answer, Kind, Tree};
 
-/// How much a finding matters.
+/// Weight of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
     /// Worth knowing.
@@ -31,7 +31,7 @@ impl Level {
 pub struct Finding {
     /// Name of the question.
     pub question: &'static str,
-    /// How much it matters.
+    /// Weight.
     pub level: Level,
     /// Nodes that it is about.
     pub nodes: Vec<usize>,
@@ -48,7 +48,7 @@ pub struct Finding {
 pub struct Asked {
     /// Name of the question.
     pub question: &'static str,
-    /// What is wished.
+    /// Wish, in words.
     pub wish: &'static str,
     /// Whether it is so; `None` where a limit was met.
     pub holds: Option<bool>,
@@ -72,7 +72,7 @@ pub const QUESTIONS: [(&str, &str); 14] = [
     ("read-before-written", "no entry is read before it is written"),
 ];
 
-/// What is asked besides.
+/// Further questions and options.
 #[derive(Clone, Debug, Default)]
 pub struct Wishes {
     /// Actions of which no two may run or be started together.

@@ -50,9 +50,9 @@ impl LeafKind {
 /// A leaf as a file of leaves describes it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Leaf {
-    /// Its tag.
+    /// Tag.
     pub tag: String,
-    /// Its kind.
+    /// Kind.
     pub kind: LeafKind,
     /// Ports that it writes, where this is known.
     pub writes: Vec<String>,

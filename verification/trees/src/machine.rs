@@ -1,4 +1,4 @@
-//! What a tick does, as the library does it: the executor.
+//! Executor: a tick as the library does it.
 //!
 //! A [`Machine`] holds a tree between two ticks, or within one while it waits for an answer: every
 //! choice of the world is a [`Question`], and everything else follows. The ways through a tick are
@@ -33,7 +33,7 @@ fn idle() -> Fault {
     Fault("a condition was skipped, and the node answers IDLE".to_owned())
 }
 
-/// What a node does next.
+/// Next step of a node.
 pub(crate) enum Move {
     /// Ticks the child at this place.
     Child(usize),
@@ -45,7 +45,7 @@ pub(crate) enum Move {
     Idle,
 }
 
-/// Where a tick goes on.
+/// Point from which a tick goes on.
 enum Cursor {
     Enter(usize),
     Leave(usize, Answer),

@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 pub struct Section<'r> {
     /// Class: `error`, `warning` or `note`.
     pub class: &'static str,
-    /// What was found.
+    /// Finding, in words.
     pub title: String,
     /// Remedy.
     pub help: String,

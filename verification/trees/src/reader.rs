@@ -26,7 +26,7 @@ impl<F: FnMut(&str) -> Result<Vec<u8>, String>> Files for F {
     }
 }
 
-/// What the reader is told besides the file.
+/// Settings of the reader beside the file.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Leaves of the user; they go before those of Nav2 and before models in the file.

@@ -4,7 +4,7 @@ use crate::explore::Run;
 use crate::machine::{Machine, Stop};
 use crate::tree::{Answer, Tree};
 
-/// What one tick did.
+/// Record of one tick.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {
     /// Events, as traces have them.

@@ -11,7 +11,7 @@ pub enum Family {
     Leaf,
 }
 
-/// What a constant at a port must be.
+/// Type of a constant at a port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PortType {
     Integer,
@@ -20,7 +20,7 @@ pub(crate) enum PortType {
     Truth,
     Text,
     Status,
-    /// Of the caller's choice.
+    /// Choice of the caller.
     Any,
 }
 
@@ -46,7 +46,7 @@ pub(crate) struct PortSpec {
     pub(crate) default: Default,
 }
 
-/// What holds if a port is not given.
+/// Default of a port that is not given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Default {
     Is(&'static str),

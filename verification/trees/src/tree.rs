@@ -64,7 +64,7 @@ pub enum Number {
     Entry(String),
 }
 
-/// What a decorator that looks at the world waits for.
+/// Event that a decorator waits for that looks at the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Gate {
     /// A period: so many per second.

@@ -1,4 +1,4 @@
-//! What is found in trees that people use, each with a run that the executor repeats.
+//! Findings in trees that people use, each with a run that the executor repeats.
 
 use crate::folder::{folder, load, real};
 use cotama_trees::explore::Limits;

@@ -5,7 +5,7 @@ use super::graph::{End, What};
 use super::keys::Map;
 use crate::machine::Status;
 
-/// What can be seen of a point at once.
+/// View of a point at once.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 enum Sight {
     State,

@@ -8,7 +8,7 @@ use crate::diagnostic::nearest;
 use crate::machine::Status;
 use crate::tree::{Answer, Tree};
 
-/// How a condition is asked for.
+/// Quantifier of a condition.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Property {
     /// `AG p`: after every tick.
@@ -257,7 +257,7 @@ impl Condition {
     }
 }
 
-/// What is known of a property.
+/// Knowledge of a property.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Verdict {
     /// Whether it holds; `None` where a limit was met.

@@ -36,7 +36,7 @@ impl Status {
     }
 }
 
-/// What the world says to a question.
+/// Reply of the world to a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Reply {
     /// A leaf's answer.
@@ -71,7 +71,7 @@ impl Reply {
     }
 }
 
-/// How a node is asked.
+/// Manner of asking a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum How {
     /// A leaf that does not run, `:`.
@@ -98,7 +98,7 @@ impl How {
 pub struct Question {
     /// The node that asks.
     pub node: usize,
-    /// How.
+    /// Manner of asking.
     pub how: How,
     /// Replies that are allowed.
     pub replies: &'static [Reply],
@@ -143,7 +143,7 @@ pub struct Thrown {
     pub why: String,
 }
 
-/// Where a tick stops.
+/// Point at which a tick stops.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Stop {
     /// The world is asked.
