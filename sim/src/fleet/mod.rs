@@ -16,8 +16,8 @@
 //! *The world* is a [`Floor`]: places, ways, distances, which may be those of paths that are
 //! planned on a [floor of walls and rooms](floors); a robot is then on its path, at the length that
 //! it has driven. An object lies somewhere, or is on board; where it is, everybody knows. *A robot*
-//! runs under the supervisors that its [file](cotama_models::team::scenario::RobotSpec) makes, as in a
-//! [mission](crate::robots): a task is a mission of four objectives (drive, receive, drive,
+//! runs under the supervisors that its [file](cotama_models::team::scenario::RobotSpec) makes, as
+//! in a [mission](crate::robots): a task is a mission of four objectives (drive, receive, drive,
 //! deliver), its path planned for two seconds a drive; failures raise flags with the latencies of
 //! the file, and what its supervisors make of them (another configuration, a safe stop, a question
 //! that nobody answers) is all that the team sees. A bid is the time of the drives, at the speed of
