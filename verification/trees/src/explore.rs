@@ -23,7 +23,7 @@ pub use assume::{Assumption, Assumptions, parse_assumption};
 pub use facts::{Early, Facts, Pair};
 pub use graph::End;
 use graph::{Edge, MAX_SEQUENCES, WAKES, What, code};
-use keys::{Keys, Sequences};
+use keys::{Keys, MAX_KEYS, Sequences};
 use pack::Pack;
 pub use property::{Condition, Property, Refused, Verdict, check_property, parse_property};
 pub use runs::{Run, Step};
@@ -106,11 +106,7 @@ impl<'t> Space<'t> {
         limits: Limits,
     ) -> Space<'t> {
         let mut machine = Machine::new(tree);
-        for &node in watched {
-            machine.watched[node] = Some(machine.cells.len());
-            machine.cells.push(0);
-            machine.layout.widths.push(3);
-        }
+        machine.watch(watched);
         assumptions.reserve(&mut machine);
         let mut pack = Pack::of(tree, &machine.layout);
         pack.watches = !watched.is_empty();
@@ -224,7 +220,10 @@ impl<'t> Space<'t> {
             work.push(state);
             while let Some(point) = work.pop() {
                 let full = self.sequences.len() >= MAX_SEQUENCES || self.pack.overflows;
-                if self.len() > limits.nodes || self.bytes() > limits.bytes || full {
+                if self.len() > limits.nodes.min(MAX_KEYS - 256)
+                    || self.bytes() > limits.bytes
+                    || full
+                {
                     self.complete = false;
                     return;
                 }

@@ -5,6 +5,7 @@
 //! Tree      -> Machine   machine   ticked with given replies: every choice is a question
 //! Machine   -> Accepted  conform   a recorded run is one of the tree, or departs in a row
 //! Machine   -> Space     explore   all runs when the world answers as it likes, breadth first
+//! Machine   -> Plain     plain     the same walked plainly, to compare
 //! Space     -> Facts     explore   how it ends, what is lost, what never ends, with shortest runs
 //! ```
 //!
@@ -42,6 +43,7 @@ pub mod kinds;
 pub mod machine;
 pub mod page;
 pub mod picture;
+pub mod plain;
 pub mod reader;
 pub mod replay;
 pub mod script;

@@ -127,6 +127,15 @@ impl<'t> Machine<'t> {
         Status::of_code(self.cells[node])
     }
 
+    /// Makes a cell for each node, which notes its answer of the tick.
+    pub(crate) fn watch(&mut self, nodes: &[usize]) {
+        for &node in nodes {
+            self.watched[node] = Some(self.cells.len());
+            self.cells.push(0);
+            self.layout.widths.push(3);
+        }
+    }
+
     /// Returns what happened since the last call.
     pub fn take_events(&mut self) -> Vec<Event> {
         std::mem::take(&mut self.events)

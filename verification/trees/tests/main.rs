@@ -8,5 +8,6 @@ mod families;
 mod folder;
 mod found;
 mod mutants;
+mod plain;
 mod random;
 mod traces;

@@ -50,9 +50,9 @@ const GUARDS: [&str; 6] = [
     " _post=\"x += 1\"",
 ];
 
-struct Maker {
-    stream: Stream,
-    leaves: usize,
+pub(crate) struct Maker {
+    pub(crate) stream: Stream,
+    pub(crate) leaves: usize,
 }
 
 impl Maker {
@@ -106,7 +106,7 @@ impl Maker {
         self.tree_of(3)
     }
 
-    fn tree_of(&mut self, levels: usize) -> String {
+    pub(crate) fn tree_of(&mut self, levels: usize) -> String {
         self.leaves = 0;
         let mut out = "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Main\"><Sequence>".to_owned();
         out += "<Script code=\"x := 0\"/>";

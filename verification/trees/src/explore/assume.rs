@@ -93,7 +93,7 @@ impl Assumptions {
     }
 
     /// Makes a cell for each entry that an assumption waits for.
-    pub(super) fn reserve(&mut self, machine: &mut Machine) {
+    pub(crate) fn reserve(&mut self, machine: &mut Machine) {
         let mut known: Vec<((usize, String), usize)> = Vec::new();
         for it in &self.list {
             let cell = it.until.as_ref().map(|entry| {
@@ -114,7 +114,7 @@ impl Assumptions {
     }
 
     /// Returns whether a leaf may give this reply.
-    pub(super) fn allows(&mut self, node: usize, reply: Reply, cells: &[u32]) -> bool {
+    pub(crate) fn allows(&mut self, node: usize, reply: Reply, cells: &[u32]) -> bool {
         let Reply::Leaf(answer) = reply else { return true };
         for (it, cell) in self.list.iter_mut().zip(&self.cells) {
             let holds = cell.is_none_or(|cell| cells[cell] == 0);
@@ -127,7 +127,7 @@ impl Assumptions {
     }
 
     /// Notes that a leaf has succeeded, and written what it writes.
-    pub(super) fn written(&self, node: usize, cells: &mut [u32]) {
+    pub(crate) fn written(&self, node: usize, cells: &mut [u32]) {
         for (_, cell) in self.writers.iter().filter(|it| it.0 == node) {
             cells[*cell] = 1;
         }

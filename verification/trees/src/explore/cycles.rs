@@ -92,6 +92,12 @@ impl Space<'_> {
                     marks.low[parent] = marks.low[parent].min(marks.low[at]);
                 }
                 if marks.low[at] == marks.index[at] {
+                    // Most points are alone, and not worth a list.
+                    if stack.last() == Some(&(at as u32)) && !self.circles_alone(at, keep) {
+                        stack.pop();
+                        marks.open[at] = false;
+                        continue;
+                    }
                     let from = stack.iter().rposition(|it| *it == at as u32).unwrap_or(0);
                     let points = stack.split_off(from);
                     points.iter().for_each(|it| marks.open[*it as usize] = false);
@@ -101,6 +107,11 @@ impl Space<'_> {
         }
         let whole = found.into_iter().map(|it| self.circle(it, keep, marks));
         whole.filter(|it| !it.edges.is_empty()).collect()
+    }
+
+    /// Returns whether an edge leads from a point to itself.
+    fn circles_alone(&self, point: usize, keep: Keep) -> bool {
+        self.out(point).any(|it| self.edges[it].target as usize == point && keep(self, it))
     }
 
     fn circle(&self, points: Vec<u32>, keep: Keep, marks: &mut Marks) -> Circle {

@@ -52,11 +52,20 @@ pub(crate) type Map<K, V> = HashMap<K, V, BuildHasherDefault<Quick>>;
 pub(crate) struct Keys {
     words: usize,
     arena: Vec<u64>,
+    /// Numbers, below some bits of their hashes: few keys are looked at in vain.
     table: Vec<u32>,
     len: usize,
 }
 
 const FREE: u32 = u32::MAX;
+/// Bits of a number; those above are of the hash.
+const BITS: u32 = 25;
+/// Keys that can be numbered.
+pub(crate) const MAX_KEYS: usize = (1 << BITS) - 1;
+
+fn tag(hash: u64) -> u32 {
+    (hash >> 57 << BITS) as u32
+}
 
 impl Keys {
     pub(crate) fn new(words: usize) -> Keys {
@@ -71,10 +80,10 @@ impl Keys {
         self.arena.len() * 8 + self.table.len() * 4
     }
 
-    fn hash(key: &[u64]) -> usize {
+    fn hash(key: &[u64]) -> u64 {
         let mut hash = Quick::default();
         key.iter().for_each(|it| hash.mix(*it));
-        hash.finish() as usize
+        hash.finish()
     }
 
     /// Compares word by word: keys are too short for a call.
@@ -88,16 +97,22 @@ impl Keys {
             self.grow();
         }
         let mask = self.table.len() - 1;
-        let mut at = Keys::hash(key) & mask;
+        let hash = Keys::hash(key);
+        let tag = tag(hash);
+        let mut at = hash as usize & mask;
         loop {
-            match self.table[at] {
-                FREE => break,
-                it if self.is(it, key) => return (it, false),
-                _ => at = (at + 1) & mask,
+            let it = self.table[at];
+            if it == FREE {
+                break;
             }
+            let number = it & MAX_KEYS as u32;
+            if it ^ number == tag && self.is(number, key) {
+                return (number, false);
+            }
+            at = (at + 1) & mask;
         }
         let number = self.len as u32;
-        self.table[at] = number;
+        self.table[at] = tag | number;
         self.arena.extend_from_slice(key);
         self.len += 1;
         (number, true)
@@ -107,11 +122,12 @@ impl Keys {
         let size = self.table.len() * 2;
         let mut table = vec![FREE; size];
         for number in 0..self.len {
-            let mut at = Keys::hash(self.get(number)) & (size - 1);
+            let hash = Keys::hash(self.get(number));
+            let mut at = hash as usize & (size - 1);
             while table[at] != FREE {
                 at = (at + 1) & (size - 1);
             }
-            table[at] = number as u32;
+            table[at] = tag(hash) | number as u32;
         }
         self.table = table;
     }

@@ -5,7 +5,7 @@ use super::graph::What;
 use super::runs::Run;
 use super::{Assumptions, Limits, Space};
 use crate::diagnostic::nearest;
-use crate::machine::Status;
+use crate::machine::{Machine, Status};
 use crate::tree::{Answer, Tree};
 
 /// Quantifier of a condition.
@@ -229,7 +229,7 @@ impl Parser<'_> {
 
 impl Condition {
     /// Returns the nodes whose answers within a tick are asked for.
-    fn watched(&self, into: &mut Vec<usize>) {
+    pub(crate) fn watched(&self, into: &mut Vec<usize>) {
         match self {
             Condition::Answers(node, _) | Condition::Ticked(node) => into.push(*node),
             Condition::Not(it) => it.watched(into),
@@ -241,8 +241,8 @@ impl Condition {
         }
     }
 
-    fn holds(&self, space: &Space, is_end: bool) -> bool {
-        let machine = &space.machine;
+    /// Returns whether a condition holds of a machine after a tick that may have ended the run.
+    pub(crate) fn holds(&self, machine: &Machine, is_end: bool) -> bool {
         let answer = |node: usize| machine.watched[node].map_or(0, |it| machine.cells[it]);
         match self {
             Condition::Is(it) => *it,
@@ -250,9 +250,9 @@ impl Condition {
             Condition::Answers(node, it) => answer(*node) == *it as u32 + 1,
             Condition::Ticked(node) => answer(*node) != 0,
             Condition::Done => is_end,
-            Condition::Not(it) => !it.holds(space, is_end),
-            Condition::And(a, b) => a.holds(space, is_end) && b.holds(space, is_end),
-            Condition::Or(a, b) => a.holds(space, is_end) || b.holds(space, is_end),
+            Condition::Not(it) => !it.holds(machine, is_end),
+            Condition::And(a, b) => a.holds(machine, is_end) && b.holds(machine, is_end),
+            Condition::Or(a, b) => a.holds(machine, is_end) || b.holds(machine, is_end),
         }
     }
 }
@@ -322,7 +322,7 @@ impl Space<'_> {
             What::End(_) => true,
         };
         self.at(point as usize);
-        Some(condition.holds(self, is_end))
+        Some(condition.holds(&self.machine, is_end))
     }
 
     /// Returns a run to the first point after a tick at which a condition is so.
