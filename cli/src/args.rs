@@ -241,7 +241,8 @@ Examples:
     /// One file that needs no other and no server: in it is the player of this program, compiled to
     /// WebAssembly, so a run in the page is a run of `cotama simulate`. Drawings are live; what is
     /// refused says why; runs go back, into links and into files, and runs that `cotama check
-    /// --json` found can be opened.
+    /// --json` found can be opened. Of a mission under supervisors, faults are moved along the
+    /// time, and what comes of them follows at once.
     #[command(after_long_help = model::PLAY_EXAMPLES)]
     Play(PlayArgs),
     /// Says whether a recorded run is a run of a model, and where it departs

@@ -137,6 +137,12 @@ impl From<OwnedSystem> for Found {
     }
 }
 
+impl From<Protocol> for Found {
+    fn from(Protocol { net, requirements, notes }: Protocol) -> Self {
+        Self::from(Loaded { notes, requirements, ..Loaded::new(net, None) })
+    }
+}
+
 impl From<Loaded> for Found {
     fn from(loaded: Loaded) -> Self {
         Self::Net(Box::new(loaded))
@@ -291,11 +297,10 @@ fn file(path: &str) -> Result<Found, Failure> {
 
 /// The protocol by which a team gives its tasks out.
 fn protocol(name: &str, scenario: &Scenario) -> Result<Found, Failure> {
-    let Some(Protocol { net, requirements, notes }) = Protocol::of(scenario) else {
-        return Err(Failure::of(input::name(name), team::too_large(scenario))
-            .help("the simulator runs it: `cotama run`, `cotama campaign`"));
-    };
-    Ok(Found::from(Loaded { notes, requirements, ..Loaded::new(net, None) }))
+    Protocol::of(scenario).map(Found::from).ok_or_else(|| {
+        Failure::of(input::name(name), team::too_large(scenario))
+            .help("the simulator runs it: `cotama run`, `cotama campaign`")
+    })
 }
 
 /// Whether a file begins with an element, in whatever encoding.

@@ -3,27 +3,49 @@
 use crate::answers::model::PlayAnswer;
 use crate::args::PlayArgs;
 use crate::exit::{Exit, Failure};
+use crate::input;
 use crate::model::{self, Found};
 use crate::names::quoted;
 use crate::output::{self, Screen};
 use crate::render::style::NAME;
 use crate::render::visible;
 use crate::simulate::not_played;
+use crate::team::{Chosen, too_large};
 use cotama_playground::Subject;
 use std::path::{Path, PathBuf};
 
+mod outing;
+mod team;
+
 /// Writes the page.
 pub(crate) fn play(args: &PlayArgs, screen: &Screen) -> Result<Exit, Failure> {
-    let name = &args.model.model;
+    let name = &args.model;
     let path = args.output.clone().unwrap_or_else(|| beside(name));
     output::place(&path)?;
-    let found = model::find(name)?;
+    let (mut outing, mut command, mut note) = (None, name.clone(), String::new());
+    let found = if let Some(team) = Chosen::of(name)? {
+        let scenario = team.scenario();
+        let of = team::protocol(&scenario).ok_or_else(|| {
+            Failure::of(input::name(name), too_large(&scenario))
+                .help("the simulator runs it: `cotama run`, `cotama campaign`")
+        })?;
+        note = of.note;
+        if of.is_part {
+            command.clear();
+        }
+        Found::from(of.protocol)
+    } else if let Some(it) = outing::of(name, args.mission.as_deref(), screen)? {
+        (outing, command) = (it.outing, it.mission);
+        it.found
+    } else {
+        model::find(name)?
+    };
     let robot = match &found {
         Found::Owned(it) => it.robot.clone(),
         _ => None,
     };
     let robot = robot.as_ref().map(|(robot, steps)| (robot, steps.as_slice()));
-    let subject = Subject { command: name, robot };
+    let subject = Subject { command: &command, robot, outing: outing.as_ref(), note: &note };
     let page = model::with_found(name, found, |it, _| cotama_playground::write(&subject, it))?;
     let page = page.map_err(|why| not_played(&why))?;
     output::file(&path, page.as_bytes())?;

@@ -74,3 +74,78 @@ fn names_of_a_file_do_nothing_in_its_page() {
     assert!(!page.contains("<img") && !page.contains('\u{202e}'));
     assert_eq!(data(&page)["events"][0][0], name);
 }
+
+const WEAK: &str = "format = \"panorama-faults/1\"
+event = [
+  { t_ms = 7000, kind = \"failure\", mode = \"MOT2\", until_t_ms = 90000 },
+  { x_mm = 2000, kind = \"obstacle\", delay_ms = 5000 },
+  { x_mm = 1000, kind = \"operator\", answers = [\"Teleoperation\", \"done\"], delay_ms = 9000 },
+]
+";
+
+#[test]
+fn a_plan_of_faults_is_in_its_page_and_reads_back_from_it() {
+    let folder = Folder::new("play_faults");
+    folder.write("weak.toml", WEAK);
+    let play = folder.cotama(&["play", "weak.toml", "--mission", "delivery"]);
+    assert_eq!(play.code, Some(0));
+    let outing = &data(&folder.read("weak.html"))["outing"];
+    let items = outing["items"].as_array().unwrap();
+    let of = |it: &Value| (it["kind"].clone(), it["when"].clone(), it["until"].clone());
+    // Moments: 0 is a place, 1 a time.
+    let none = Value::Null;
+    assert_eq!(of(&items[0]), (json!("operator"), json!([0, 1000, 0]), none));
+    assert_eq!(of(&items[1]), (json!("failure"), json!([1, 0, 7000]), json!([1, 0, 90000])));
+    assert_eq!(items[0]["answers"][0], 9000);
+    assert_eq!(outing["unshown"], json!(["an obstacle for 5 s, at 2.0 m"]));
+    assert_eq!(outing["command"], "cotama run delivery --faults");
+    // As the page writes it.
+    let moments = ["x_mm = 1000", "t_ms = 7000"];
+    let events = items
+        .iter()
+        .zip(moments)
+        .map(|(it, moment)| format!("\n[[event]]\n{moment}\n{}\n", it["text"].as_str().unwrap()));
+    let written = format!("{}{}", outing["rest"].as_str().unwrap(), events.collect::<String>());
+    folder.write("again.toml", written);
+    let run = |file| folder.cotama(&["run", "delivery", "--faults", file, "--no-report", "--json"]);
+    assert_eq!(run("weak.toml").json(0)["used"], run("again.toml").json(0)["used"]);
+}
+
+#[test]
+fn a_file_of_faults_needs_a_mission_with_supervisors() {
+    let folder = Folder::new("play_no_mission");
+    folder.write("weak.toml", WEAK);
+    let nothing = folder.cotama(&["play", "weak.toml"]);
+    assert_eq!(nothing.code, Some(2));
+    assert!(nothing.stderr.contains("does not say of which mission it is"), "{}", nothing.stderr);
+    let event = "[[event]]\nx_mm = 3\nkind = \"obstacle\"\ndelay_ms = 5000\n";
+    folder.write("plain.toml", format!("format = \"panorama-faults/1\"\n{event}"));
+    let plain = folder.cotama(&["play", "plain.toml", "--mission", "patrol"]);
+    assert_eq!(plain.code, Some(2));
+    assert!(plain.stderr.contains("has no robot, so no supervisors"), "{}", plain.stderr);
+    let door = folder.cotama(&["play", "door", "--mission", "delivery"]);
+    assert_eq!(door.code, Some(2));
+    assert_eq!(folder.files("").len(), 2);
+}
+
+#[test]
+fn a_trace_of_a_run_has_its_faults_and_its_floor() {
+    let folder = Folder::new("play_trace");
+    let run = ["run", "ward", "--no-report", "--trace", "run.jsonl"];
+    assert_eq!(folder.cotama(&run).code, Some(0));
+    assert_eq!(folder.cotama(&["play", "run.jsonl"]).code, Some(0));
+    let page = folder.read("run.html");
+    assert!(page.contains("<section class=\"onfloor\">") && page.contains("var RUN={"));
+    let outing = &data(&page)["outing"];
+    assert_eq!((&outing["from"], &outing["floor"]), (&json!("the run in run.jsonl"), &json!(true)));
+    assert_eq!(outing["items"].as_array().unwrap().len(), 4);
+}
+
+#[test]
+fn a_team_that_is_too_large_is_played_by_its_first_task() {
+    let folder = Folder::new("play_team");
+    assert_eq!(folder.cotama(&["play", "fleet"]).code, Some(0));
+    let page = folder.read("fleet.html");
+    assert!(page.contains("Of 40 robots and 200 tasks this is the first task"));
+    assert!(data(&page)["events"].as_array().unwrap().len() > 20);
+}

@@ -55,7 +55,11 @@ pub(crate) const PLAY_EXAMPLES: &str = "\
 Examples:
   $ cotama play door
   $ cotama play delivery --output delivery.html
-  $ cotama play philosophers:5 --json";
+  $ cotama play philosophers:5 --json
+  $ cotama play fleet                                    # the protocol of its first robots
+  $ cotama run delivery --trace run.jsonl && cotama play run.jsonl
+
+A failure of a campaign is played as it was written: cotama play found/failures/001.toml";
 
 /// A model.
 #[derive(Args, Debug)]
@@ -125,8 +129,12 @@ pub(crate) struct SimulateArgs {
 
 #[derive(Args, Debug)]
 pub(crate) struct PlayArgs {
-    #[command(flatten)]
-    pub(crate) model: ModelArg,
+    /// A model, robot, mission or team: its name, or the path of its file; a file of faults, such
+    /// as a campaign's failure; the trace of a mission under supervisors; or `-`
+    pub(crate) model: String,
+    /// The mission of a file of faults [default: the one that it names]
+    #[arg(long, value_name = "MISSION")]
+    pub(crate) mission: Option<String>,
     /// The page to write [default: MODEL.html in this folder]
     #[arg(long, short, value_name = "FILE.html")]
     pub(crate) output: Option<PathBuf>,

@@ -86,6 +86,14 @@ pub fn html_beside(trace: &Trace, written: Option<&str>) -> String {
     frame::page(&format!("{}: mission report", headline::name(&view)), &[], &page)
 }
 
+/// Returns the run on its floor, with a slider that moves the robot, as markup, and the style of
+/// that; `None` for a run that has no floor. The run is in `RUN` there, for other scripts.
+pub fn on_floor(trace: &Trace) -> Option<[String; 2]> {
+    let view = View::new(trace);
+    let drawn = floor::section(&view);
+    (!drawn.is_empty()).then(|| [drawn, frame::FLOOR.to_owned()])
+}
+
 fn footer(page: &mut String, header: &Header, written: Option<&str>) {
     let options = &header.options;
     let upward = options.upward.map_or("never".into(), |it| {

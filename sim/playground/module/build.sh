@@ -3,7 +3,7 @@
 #
 # Without a name it takes the place of the one that is shipped, and module.txt names its compiler.
 #
-# It needs a compiler with the target wasm32-unknown-unknown (`rustup target add`), or one with the
+# Needs a compiler with the target wasm32-unknown-unknown (`rustup target add`), or one with the
 # sources of its library and `wasm-ld` (Debian: rustc-web, cargo-web, rust-web-src, lld): then what
 # the module needs of the library is built first. All compilers of PATH are tried; RUSTC names
 # another one. Status 75: there is none.

@@ -67,7 +67,8 @@ class Module:
         """A period of the decider: the event that it told, and the records."""
         halves = [it for number in (up, works) for it in (number % 2**32, number // 2**32)]
         told = 0 if said is None else said[1] * 256 + said[2] + 1
-        status = self.call("period", self.page, *halves, told, int(stands), at % 2**32, at // 2**32)
+        time = at % 2**32, at // 2**32
+        status = self.call("period", self.page, *halves, told, 0, int(stands), *time)
         assert status == 0, status
         words, data = self.words(), self.data
         listed(words)
@@ -251,7 +252,10 @@ def main():
             continue
         text = page.read_text(encoding="utf-8")
         data = re.search(r'<script type="application/json" id="data">(.*?)</script>', text).group(1)
-        models.append((path, json.loads(data)))
+        data = json.loads(data)
+        # No other command plays a part of a team.
+        if data["command"]:
+            models.append((path, data))
     page.unlink()
     folder.rmdir()
     bytes_ = pathlib.Path(asked.module).read_bytes() if asked.module else None

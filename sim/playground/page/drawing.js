@@ -40,7 +40,8 @@ function colour(it, kind, is) {
 /** Scrolls a drawing in its frame to where something is marked or has fired. */
 function reveal(net) {
   const frame = net.querySelector(".scroll");
-  const it = frame && frame.querySelector(".state.hot rect,.place.hot .rim,.transition.hot rect");
+  const hot = ".state.hot rect,.place.hot .rim,.transition.hot rect";
+  const it = frame && (frame.querySelector(hot) || frame.querySelector(".part.can"));
   if (!it || frame.clientWidth === 0) {
     return;
   }
@@ -127,6 +128,8 @@ class Drawings {
 
   /** Scrolls the nets that have moved to where. */
   reveal() {
-    document.querySelectorAll(".net.moved").forEach(reveal);
+    const moved = document.querySelectorAll(".net.moved");
+    // At the start nothing has moved: a net alone shows what could.
+    (moved.length > 0 ? moved : document.querySelectorAll(".net:only-child")).forEach(reveal);
   }
 }

@@ -26,7 +26,7 @@ class Numbers {
   list(size) {
     const items = [];
     for (let left = this.next(); left > 0; left -= 1) {
-      items.push(size === 1 ? this.next() : [this.next(), this.next()]);
+      items.push(size === 1 ? this.next() : Array.from({ length: size }, () => this.next()));
     }
     return items;
   }

@@ -11,7 +11,7 @@ function word(data, step, now, encode) {
     return `+${step.at - now}${toggles}`;
   }
   const name = data.events[step.event][0];
-  // Of two events of one name the first has it.
+  // The first of two events of one name has it.
   const first = data.events.findIndex((it) => it[0] === name) === step.event;
   const said = first ? encode(name) : `:${step.event}`;
   return (step.at === now ? said : `${said}@${step.at}`) + toggles;
@@ -89,6 +89,9 @@ function quoted(text) {
 
 /** The command that plays the same. */
 function commandOf(data, steps, period) {
+  if (data.command === "") {
+    return "# no command plays this part of a team";
+  }
   if (steps.length > MOST_IN_COMMAND) {
     const so_many = `${steps.length} steps: save the recording`;
     return `cotama simulate ${quoted(data.command)} ... # ${so_many}`;

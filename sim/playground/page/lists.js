@@ -84,7 +84,7 @@ class Marking {
   }
 }
 
-/** What has happened, step by step. */
+/** All that has happened, step by step. */
 class Log {
   constructor(data, go) {
     this.data = data;

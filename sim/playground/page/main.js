@@ -17,6 +17,12 @@ async function main() {
   play.say(data.robot
     ? "Say that the mission begins; then let something fail."
     : "Tell it an event: in the list, or in a drawing.");
+  if (data.outing) {
+    play.outing = new Outing(play);
+    if (data.outing.items.length > 0) {
+      play.say("Move a fault along the axis: what comes of it follows at once.");
+    }
+  }
   if (location.hash.length > 1) {
     await play.attempt(() => play.follow());
   }

@@ -55,7 +55,7 @@ class Play {
     });
     document.addEventListener("keydown", (it) => {
       const elsewhere = /INPUT|SELECT|TEXTAREA/.test(it.target.tagName);
-      if (it.altKey || it.ctrlKey || it.metaKey || elsewhere) {
+      if (it.altKey || it.ctrlKey || it.metaKey || elsewhere || it.defaultPrevented) {
         return;
       }
       if (it.key === "ArrowLeft") {
@@ -179,7 +179,7 @@ class Play {
     return all;
   }
 
-  /** Whether what fired is what a file says. */
+  /** True if what fired is what a file says. */
   compared(run) {
     const steps = [{ records: this.run.started }, ...this.run.steps];
     const fired = steps.flatMap((step) => step.records.flatMap((it) => it.fired));

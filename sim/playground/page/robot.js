@@ -24,25 +24,44 @@ function has(set, at) {
   return (set[0] & low) !== 0 || (set[1] & high) !== 0;
 }
 
-/** Why flags are up, and what of the robot works: the failures and flags that are switched on. */
+/**
+ * Why flags are up, and what of the robot works: failures and flags that are switched on; in a
+ * course also modules that do not work, what has failed unseen, and whether the robot still moves.
+ */
 class World {
   constructor(robot) {
     this.robot = robot;
     this.failures = new Set();
     this.flags = new Set();
+    this.gone = new Set();
+    this.unseen = new Set();
+    this.moves = new Set();
   }
 
-  /** Switches one thing: `m3` a failure, `f3` a flag. */
+  set(word) {
+    return {
+      m: this.failures, f: this.flags, w: this.gone, b: this.unseen, v: this.moves,
+    }[word[0]] || new Set();
+  }
+
+  /** Switches one thing: `m3` a failure, `f3` a flag, `w3` a module. */
   toggle(word) {
-    const set = word[0] === "m" ? this.failures : this.flags;
     const at = Number(word.slice(1));
+    const set = this.set(word);
     if (!set.delete(at)) {
       set.add(at);
     }
   }
 
   is(word) {
-    return (word[0] === "m" ? this.failures : this.flags).has(Number(word.slice(1)));
+    return this.set(word).has(Number(word.slice(1)));
+  }
+
+  /** The words that make a set hold these numbers. */
+  changes(letter, numbers) {
+    const set = this.set(letter);
+    const all = [...set].filter((it) => !numbers.has(it));
+    return [...all, ...[...numbers].filter((it) => !set.has(it))].map((it) => letter + it);
   }
 
   /** The flags that are up. */
@@ -53,8 +72,10 @@ class World {
 
   /** The modules that say that they work. */
   works() {
+    const gone = united([...this.gone].map(bit));
     return [...this.failures].map((it) => this.robot.failures[it].works)
-      .reduce((a, b) => [(a[0] & b[0]) >>> 0, (a[1] & b[1]) >>> 0], [4294967295, 4294967295]);
+      .reduce((a, b) => [(a[0] & b[0]) >>> 0, (a[1] & b[1]) >>> 0],
+        [~gone[0] >>> 0, ~gone[1] >>> 0]);
   }
 }
 
@@ -81,11 +102,13 @@ class RobotEngine extends Engine {
     }
   }
 
-  /** A period: returns what was found, told and done, or why not. */
-  period(world, said, stands, at) {
+  /** A period: returns what was found, told and done, or why not. `planned` is 0, or 1 more than
+      the number of the row that the planner tells. */
+  period(world, said, planned, stands, at) {
     const told = said === null ? 0 : said[1] * 256 + said[2] + 1;
+    const more = [told, planned, stands ? 1 : 0];
     const bits = [...world.up(), ...world.works()];
-    const status = this.exports.period(this.page, ...bits, told, stands ? 1 : 0, ...halves(at));
+    const status = this.exports.period(this.page, ...bits, ...more, ...halves(at));
     if (status !== 0) {
       return REFUSED[status];
     }
@@ -98,7 +121,7 @@ class RobotEngine extends Engine {
     return account;
   }
 
-  /** Where the robot is, and what is requested of it. */
+  /** The place of the robot, and what is requested of it. */
   robot() {
     this.exports.pilot(this.page);
     const from = this.words();
@@ -156,7 +179,7 @@ class RobotPlay extends Play {
     this.pass(this.when());
   }
 
-  /** Whether the decider takes this as said: a report is told by flags alone. */
+  /** True if the decider takes this as said: a report is told by flags alone. */
   takes(event) {
     const said = this.says.get(event);
     return Boolean(said) && ![4, 5].includes(said[1]);
@@ -182,8 +205,11 @@ class RobotPlay extends Play {
       this.world.toggle(word);
       this.pending.push(word);
     });
-    const stands = !this.robot.drive;
-    const done = this.engine.period(this.world, said, stands, Math.max(at, this.now()));
+    const stands = !this.robot.drive && this.world.moves.size === 0;
+    const tells = this.pending.find((word) => word[0] === "p");
+    const planned = tells ? Number(tells.slice(1)) + 1 : 0;
+    const when = Math.max(at, this.now());
+    const done = this.engine.period(this.world, said, planned, stands, when);
     if (typeof done === "string") {
       this.say(done);
       return false;
@@ -193,7 +219,7 @@ class RobotPlay extends Play {
     this.run.steps.push({
       event: done.event >= 0 ? done.event : null,
       said: event,
-      at: Math.max(at, this.now()),
+      at: when,
       records: done.records,
       toggles: this.pending,
       account: done,
@@ -229,17 +255,41 @@ class RobotPlay extends Play {
     return is;
   }
 
-  /** Whether the operator drives. */
+  /** Plays the periods of a course from the start; `failed` says which rows have failed when. */
+  course(periods, failed) {
+    this.plain = false;
+    this.restart(PERIOD);
+    const events = new Map(this.data.robot.says.map((it) => [it[1] * 256 + it[2], it[0]]));
+    const members = (set, is) => new Set(Array.from({ length: 64 }, (_, at) => at)
+      .filter((at) => has(set, at) === is));
+    let before = "";
+    periods.every((it) => {
+      const look = `${it.up} ${it.works} ${it.coasts}`;
+      const same = look === before;
+      before = look;
+      const toggles = [...it.planned, ...this.world.changes("b", failed(it.at))];
+      if (!same) {
+        toggles.push(...this.world.changes("f", members(it.up, true)),
+          ...this.world.changes("w", members(it.works, false)),
+          ...this.world.changes("v", new Set(it.coasts ? [0] : [])));
+      }
+      const event = it.said === null ? null : events.get(it.said);
+      return this.step(event === undefined ? null : event, it.at, "", toggles);
+    });
+    this.show();
+  }
+
+  /** True if the operator drives. */
   operates() {
     const [kind, sub] = this.robot.place;
     return kind === 2 && this.data.robot.sub_objectives[sub][1];
   }
 
-  /** What came of a period, in sentences. */
+  /** Sentences on what came of a period. */
   story(step) {
     const { robot } = this.data;
     const parts = [];
-    const switched = step.toggles.map((word) => {
+    const switched = step.toggles.filter((word) => /^[mf]/.test(word)).map((word) => {
       const at = Number(word.slice(1));
       return word[0] === "m" ? robot.failures[at].id : `flag ${robot.flags[at][0]}`;
     });

@@ -1,4 +1,4 @@
-// Of a robot: switches of failures and flags, and the status vector.
+// Switches of a robot: failures and flags, and the status vector.
 
 class Switches {
   constructor(robot, toggle) {
@@ -83,8 +83,8 @@ class Status {
       ["known losses", known.join(", ") || "none"],
       ["settings", held.map((name) => `that of ${name}`).join(", ") || "as planned"],
       ["requests", requests.join(", ") || "none"],
-      ["has failed", [...world.failures].map((at) => robot.failures[at].id).join(", ")
-        || "nothing"],
+      ["has failed", [...new Set([...world.failures, ...world.unseen])]
+        .map((at) => robot.failures[at].id).join(", ") || "nothing"],
     ];
   }
 

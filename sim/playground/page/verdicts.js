@@ -1,4 +1,4 @@
-// What was checked of the model: the requirements that speak of where one is, from a file that
+// Requirements of the model that were checked and speak of where one is, from a file that
 // `cotama check --json` wrote. The page checks nothing.
 
 /** The most requirements that are shown. */
@@ -30,7 +30,7 @@ class Verdicts {
     return new Set(numbers.filter((it) => it !== undefined));
   }
 
-  /** Those of which a place has just changed come first, then those of which one is marked. */
+  /** Requirements of which a place has just changed come first, then those of which one is marked. */
   show(state, records) {
     if (this.all.length === 0) {
       return;

@@ -65,7 +65,7 @@ impl Board {
     /// a mailbox. In a plain net, without events and time, each transition gets an event of its
     /// name.
     ///
-    /// Its memory is never given back: a page has one board.
+    /// The memory is never given back: a page has one board.
     ///
     /// # Errors
     /// Why it cannot be played, in words.
@@ -96,12 +96,12 @@ impl Board {
         &self.session
     }
 
-    /// How many steps were taken to come here.
+    /// The number of steps that were taken to come here.
     pub fn at(&self) -> usize {
         self.at
     }
 
-    /// How many steps the run has, those among them that were gone back over.
+    /// The number of steps of the run, those among them that were gone back over.
     pub fn steps(&self) -> usize {
         self.steps.len()
     }

@@ -9,9 +9,11 @@
 //! | [`answer`] | records and states as numbers, as a page reads them |
 //! | [`Board`] | a run that goes forth and back |
 //! | [`Pilot`] | the decider of a robot beside its board |
+//! | [`course`] | a mission under a plan of faults, from its start to its end |
 //! | [`encode`], [`decode`] | a system as bytes |
 //! | [`encode_tables`], [`decode_tables`] | the tables of a decider as bytes |
 //! | `write` | the page, with feature `page` |
+//! | `outing` | a mission and its faults in a page, with feature `page` |
 #![no_std]
 #![cfg_attr(kani, allow(clippy::pedantic))]
 
@@ -22,6 +24,11 @@ extern crate std;
 pub mod answer;
 mod board;
 mod coded;
+pub mod course;
+#[cfg(feature = "page")]
+mod letters;
+#[cfg(feature = "page")]
+pub mod outing;
 #[cfg(feature = "page")]
 mod page;
 mod pilot;

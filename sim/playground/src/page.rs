@@ -1,6 +1,8 @@
 //! The page in which a system is played: one file, with all that it needs.
 
 use super::coded::encode;
+use super::letters::base64;
+use super::outing::Outing;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -23,7 +25,7 @@ const MODULE: &[u8] = include_bytes!("../module/module.wasm");
 const LARGEST: usize = 500;
 
 const STYLES: [&str; 3] = [THEME, STYLE, include_str!("../page/page.css")];
-const SCRIPTS: [&str; 11] = [
+const SCRIPTS: [&str; 13] = [
     include_str!("../page/engine.js"),
     include_str!("../page/elements.js"),
     include_str!("../page/drawing.js"),
@@ -34,16 +36,22 @@ const SCRIPTS: [&str; 11] = [
     include_str!("../page/play.js"),
     include_str!("../page/switches.js"),
     include_str!("../page/robot.js"),
+    include_str!("../page/axis.js"),
+    include_str!("../page/course.js"),
     include_str!("../page/main.js"),
 ];
 
 /// A model to be played.
 #[derive(Clone, Copy, Debug)]
 pub struct Subject<'s> {
-    /// The name that the program knows it by.
+    /// The name that the program knows it by; empty where no other command plays it.
     pub command: &'s str,
     /// The robot whose supervisors they are, with the objectives of its mission.
     pub robot: Option<(&'s Robot, &'s [Step])>,
+    /// The mission under a plan of faults.
+    pub outing: Option<&'s Outing>,
+    /// A note above all else; may be empty.
+    pub note: &'s str,
 }
 
 /// Writes the page of a system, or of a net alone. No name in it can do anything: they reach the
@@ -53,7 +61,7 @@ pub struct Subject<'s> {
 /// use cotama_core::system::{Component, System};
 /// use cotama_models::nets::door;
 /// use cotama_playground::{Subject, write};
-/// let door = Subject { command: "door", robot: None };
+/// let door = Subject { command: "door", robot: None, outing: None, note: "" };
 /// let page = write(&door, &System::alone(&[Component::alone(&door::NET)]));
 /// assert!(page.unwrap().starts_with("<!DOCTYPE html>"));
 /// ```
@@ -74,7 +82,12 @@ pub fn write(subject: &Subject<'_>, system: &System<'_>) -> Result<String, NotPl
     if !system.doc.is_empty() {
         put(&mut body, format_args!("<p class=\"doc\">{}</p>\n", markup(system.doc)));
     }
-    body += include_str!("../page/page.html");
+    if !subject.note.is_empty() {
+        put(&mut body, format_args!("<p class=\"doc\">{}</p>\n", markup(subject.note)));
+    }
+    let floor = subject.outing.and_then(|it| it.floor.as_ref());
+    let drawn = floor.map_or_else(String::new, |it| format!("<div id=\"plane\">{}</div>", it[0]));
+    body += &include_str!("../page/page.html").replace("<!--plane-->", &drawn);
     body += "<section id=\"nets\" aria-label=\"Drawings\">\n";
     for (at, (component, drawing)) in system.components.iter().zip(&drawings).enumerate() {
         body += &section(at, component, drawing.as_ref());
@@ -84,7 +97,9 @@ pub fn write(subject: &Subject<'_>, system: &System<'_>) -> Result<String, NotPl
     body += "<script>\n(function () {\n\"use strict\";\n";
     SCRIPTS.iter().for_each(|it| body += it);
     body += "}());\n</script>\n";
-    Ok(framed(&format!("{}: played", system.name), &STYLES, &body))
+    let mut styles = Vec::from(STYLES);
+    styles.extend(floor.map(|it| it[1].as_str()));
+    Ok(framed(&format!("{}: played", system.name), &styles, &body))
 }
 
 fn put(out: &mut String, text: core::fmt::Arguments<'_>) {
@@ -153,6 +168,7 @@ fn data(
     json!({
         "command": subject.command,
         "robot": subject.robot.map(|(robot, steps)| super::robot::data(robot, steps, numbered)),
+        "outing": subject.outing.map(Outing::data),
         "name": system.name,
         "system": numbered.is_system(),
         "mail": system.links.iter().any(|it| matches!(it.delivery, Delivery::Mail { .. })),
@@ -204,34 +220,4 @@ fn said(system: &System<'_>, link: &Link) -> Option<String> {
     let from = system.components.get(usize::from(link.from.component))?;
     let output = from.net.outputs.get(link.from.id.0 as usize)?;
     Some(format!("{}.{}", from.name, output.name))
-}
-
-/// Bytes in letters, for a text (RFC 4648, section 4).
-pub(super) fn base64(bytes: &[u8]) -> String {
-    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for chunk in bytes.chunks(3) {
-        let mut all = [0; 3];
-        all[..chunk.len()].copy_from_slice(chunk);
-        let number = u32::from_be_bytes([0, all[0], all[1], all[2]]);
-        for at in 0..4 {
-            let letter = LETTERS[(number >> (18 - 6 * at) & 63) as usize];
-            out.push(if at <= chunk.len() { char::from(letter) } else { '=' });
-        }
-    }
-    out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::base64;
-
-    #[test]
-    fn letters_are_those_of_the_standard() {
-        let cases =
-            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg==")];
-        for (bytes, letters) in cases {
-            assert_eq!(base64(bytes.as_bytes()), letters);
-        }
-    }
 }

@@ -12,7 +12,7 @@ use cotama_core::player::{Firing, Loaded, Names, Observer, Packed};
 use cotama_core::system::{Of, System};
 use cotama_core::units::Millis;
 use cotama_models::level::{
-    Cause, Decider, Drive, Global, Level, Perceived, Round, Rows, Tables, Told, Where,
+    Cause, Decider, Drive, Global, Level, Mode, Perceived, Round, Rows, Tables, Told, Where,
 };
 use cotama_play::Numbered;
 
@@ -23,17 +23,19 @@ const SLOTS: usize = 256;
 const KEPT_EACH: usize = 64;
 
 type Program = Loaded<'static, WORDS, 0, SLOTS>;
-type Played = Decider<'static, Program, WORDS, 0, SLOTS>;
+pub(super) type Played = Decider<'static, Program, WORDS, 0, SLOTS>;
 
-/// What is there for the robot to see in a period, and what is said to it.
+/// All that there is for the robot to see in a period, and the word that is said to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Seen {
     /// The flags that are up, a bit each.
     pub up: u64,
     /// The modules that say that they work, a bit each.
     pub works: u64,
-    /// What the operator or the mission says.
+    /// The word of the operator or of the mission.
     pub said: Option<Told>,
+    /// A failure, by its number, that the planner tells: no flag shows it.
+    pub planned: Option<usize>,
     /// State of the drive.
     pub drive: Drive,
 }
@@ -52,7 +54,7 @@ pub struct Pilot {
 impl Pilot {
     /// The decider of these tables, with the supervisors of the same robot.
     ///
-    /// Its memory is never given back.
+    /// The memory is never given back.
     ///
     /// # Errors
     /// Why it cannot work, in words.
@@ -108,7 +110,7 @@ impl Pilot {
     }
 
     /// The same by numbers: flags that are up, modules that work, the time; what is said, as its
-    /// kind times 256, and its number, and 1, or 0.
+    /// kind times 256, and its number, and 1, or 0; what the planner tells, after 1, or 0.
     ///
     /// # Errors
     /// Why nothing was done.
@@ -116,7 +118,7 @@ impl Pilot {
         &mut self,
         board: &mut Board,
         [up, works, at]: [u64; 3],
-        said: u32,
+        [said, planned]: [u32; 2],
         stands: bool,
     ) -> Result<Vec<u32>, Refused> {
         let told = |it: u32| Told::from_numbers((it >> 8) as u8, (it & 0xff) as usize);
@@ -124,8 +126,30 @@ impl Pilot {
             None => None,
             Some(it) => Some(told(it).ok_or(Refused::Unknown)?),
         };
-        let seen = Seen { up, works, said, drive: Drive { at_goal: false, stands } };
+        let planned = planned.checked_sub(1).map(|it| it as usize);
+        let seen = Seen { up, works, said, planned, drive: Drive { at_goal: false, stands } };
         self.period(board, Millis(at), seen)
+    }
+
+    /// The decider before its first period.
+    pub(super) fn begins(&self) -> Played {
+        self.kept.first().copied().unwrap_or(self.decider)
+    }
+
+    /// The tables of its robot.
+    pub(super) const fn tables(&self) -> &'static Tables<'static> {
+        self.tables
+    }
+
+    /// Returns the decider of motion where the robot is; `None` where nothing runs.
+    pub(super) fn mode(&self, at: Where) -> Option<Mode> {
+        self.tables.mode(at)
+    }
+
+    /// True if the robot may move where it is in its drive.
+    pub(super) fn moves(&self, at: Where) -> bool {
+        let runs = at.configuration().and_then(|it| self.tables.configurations.get(it));
+        runs.is_some_and(|it| it.speed.0 > 0)
     }
 
     /// Goes to after so many periods.
@@ -176,7 +200,7 @@ impl Pilot {
         out
     }
 
-    /// Whether all places of the supervisors hold what those of the board hold.
+    /// True if all places of the supervisors hold what those of the board hold.
     fn agrees(&self, board: &Board) -> bool {
         let (numbered, marking) = (board.session().numbered(), board.session().marking());
         let player = self.decider.level().player();
@@ -192,7 +216,7 @@ impl Pilot {
 }
 
 /// A period: returns the failures that new flags are taken for, and the outcome of the round.
-fn worked(
+pub(super) fn worked(
     decider: &mut Played,
     at: Millis,
     seen: Seen,
@@ -201,6 +225,7 @@ fn worked(
     let up = decider.up();
     let perceived = Perceived { raised: seen.up & !up, lowered: up & !seen.up, works: seen.works };
     let rows = decider.perceive(at, perceived);
+    seen.planned.into_iter().for_each(|row| decider.report(row, Cause(0)));
     (rows, decider.period(at, seen.said, seen.drive, observer))
 }
 
@@ -250,7 +275,8 @@ mod tests {
     }
 
     fn seen(up: u64, said: Option<Told>, stands: bool) -> Seen {
-        Seen { up, works: u64::MAX, said, drive: Drive { at_goal: false, stands } }
+        let planned = None;
+        Seen { up, works: u64::MAX, said, planned, drive: Drive { at_goal: false, stands } }
     }
 
     #[test]

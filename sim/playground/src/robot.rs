@@ -1,6 +1,6 @@
 //! A robot as its page needs it: tables of its decider, and its words.
 
-use super::page::base64;
+use super::letters::base64;
 use super::tables::encode_tables;
 use alloc::format;
 use alloc::string::String;
@@ -25,7 +25,8 @@ pub(super) fn data(robot: &Robot, steps: &[Step], numbered: &Numbered) -> Value 
     };
     let configurations = robot.configurations.iter().map(|it| {
         let speed = it.speed.0;
-        json!({ "name": it.name, "required": names(it.required), "speed_mm_s": speed })
+        let (required, sub) = (names(it.required), it.sub_objective);
+        json!({ "name": it.name, "required": required, "speed_mm_s": speed, "sub_objective": sub })
     });
     let objectives: Vec<String> = if steps.is_empty() {
         Vec::from([String::from("the drive")])

@@ -30,7 +30,7 @@ pub struct Fired {
     pub transition: TransitionId,
     /// Time of the firing.
     pub at: Millis,
-    /// Whether an event that was offered from outside made it fire.
+    /// True if an event that was offered from outside made it fire.
     pub offered: bool,
 }
 
@@ -268,7 +268,7 @@ pub enum NotPlayed {
     Words {
         /// The machine words that it needs.
         words: usize,
-        /// Whether a place has no bound: it takes 17 bits, and a 1-safe place 2.
+        /// True if a place has no bound: it takes 17 bits, and a 1-safe place 2.
         unbounded: bool,
     },
     /// More than 65,533 places, events or transitions.

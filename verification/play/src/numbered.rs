@@ -243,23 +243,23 @@ impl Numbered {
         &self.whole
     }
 
-    /// How many of the places a reader wants to see: those behind them follow from these.
+    /// The number of places that a reader wants to see: those behind them follow from these.
     pub fn shown_places(&self) -> usize {
         self.shown
     }
 
-    /// How many of the events are told from outside: those behind them are
+    /// The number of events that are told from outside: those behind them are
     /// [choices](Self::choosing).
     pub fn told_events(&self) -> usize {
         self.told
     }
 
-    /// Whether it is a system of nets.
+    /// True if it is a system of nets.
     pub fn is_system(&self) -> bool {
         self.nets.len() > 1 || !self.links.is_empty()
     }
 
-    /// Whether nothing in it waits for an event or for time: it moves by nobody's word.
+    /// True if nothing in it waits for an event or for time: it moves by nobody's word.
     pub fn is_plain(&self) -> bool {
         self.nets.iter().all(|net| {
             net.events.is_empty() && net.transitions.iter().all(|it| it.within.is_none())

@@ -30,7 +30,7 @@ pub struct Record {
     pub at: Millis,
     /// The events that were offered; none for what fired by itself.
     pub events: Vec<EventId>,
-    /// Whether it is what the nets of a system did in their turns, with what they had mailed.
+    /// True if it is what the nets of a system did in their turns, with what they had mailed.
     pub round: bool,
     /// The transitions that fired, in this order.
     pub fired: Vec<TransitionId>,
@@ -313,7 +313,7 @@ impl<'n, 'c> Session<'n, 'c> {
         self.game.now()
     }
 
-    /// Whether something waits in a mailbox.
+    /// True if something waits in a mailbox.
     pub fn round_is_due(&self) -> bool {
         self.game.round_is_due()
     }
@@ -323,12 +323,12 @@ impl<'n, 'c> Session<'n, 'c> {
         self.numbered
     }
 
-    /// Whether each word is a round: see [`new`](Self::new).
+    /// True if each word is a round: see [`new`](Self::new).
     pub fn rounds(&self) -> bool {
         self.rounds
     }
 
-    /// What happened, in this order.
+    /// All that happened, in this order.
     pub fn records(&self) -> &[Record] {
         &self.records
     }

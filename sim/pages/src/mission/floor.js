@@ -29,22 +29,22 @@
     }
     var now = before(RUN.poses, time), next = Math.min(now + 1, RUN.poses.length - 1);
     Array.prototype.forEach.call(people, function (person, number) {
-      var x = 6 + 2 * number, here = RUN.poses[now][x] !== undefined;
+      var x = 6 + 2 * number, here = RUN.poses[now] && RUN.poses[now][x] !== undefined;
       var stays = here && RUN.poses[next][x] === undefined;
       person.setAttribute("visibility", here ? "visible" : "hidden");
       if (!here) { return; }
       person.setAttribute("cx", stays ? RUN.poses[now][x] : between(RUN.poses, time, x));
       person.setAttribute("cy", stays ? RUN.poses[now][x + 1] : between(RUN.poses, time, x + 1));
     });
-    if (rays && RUN.rays.length) {
-      var ends = RUN.rays[now], drawn = "";
+    if (rays) {
+      var ends = RUN.rays[now] || [], drawn = "";
       for (var ray = 0; ray + 1 < ends.length; ray += 2) {
         drawn += "M" + at_x + " " + at_y + "L" + ends[ray] + " " + ends[ray + 1];
       }
       rays.setAttribute("d", drawn);
     }
+    if (told) { told.setAttribute("visibility", RUN.poses.length ? "visible" : "hidden"); }
     if (told && RUN.poses.length) {
-      told.setAttribute("visibility", "visible");
       told.setAttribute("cx", between(RUN.poses, time, 4));
       told.setAttribute("cy", between(RUN.poses, time, 5));
     }
@@ -52,7 +52,7 @@
     var sample = RUN.samples[before(RUN.samples, time)];
     var runs = RUN.runs.length && RUN.runs[0][0] <= time ? RUN.runs[before(RUN.runs, time)][1] : "";
     return (time / 1000).toFixed(1) + " s, " + (along / 1000).toFixed(1) + " m, " +
-      sample[2] + " mm/s" + (runs ? ", " + runs : "") + "; margins " +
-      (sample[3] / 1000).toFixed(1) + " s, " + (sample[4] / 1000).toFixed(0) + " J";
+      sample[2] + " mm/s" + (runs ? ", " + runs : "") + (sample.length < 5 ? "" : "; margins " +
+      (sample[3] / 1000).toFixed(1) + " s, " + (sample[4] / 1000).toFixed(0) + " J");
   });
 })();

@@ -41,7 +41,7 @@ impl Lists {
             if memory_grow(0, pages) == usize::MAX {
                 return None;
             }
-            // What was left before it stays unused, unless the new memory follows it.
+            // The rest before it stays unused, unless the new memory follows it.
             if end != self.end {
                 self.fresh = end;
             }

@@ -14,9 +14,10 @@ extern crate alloc;
 mod heap;
 
 use alloc::boxed::Box;
-use alloc::string::String;
+use alloc::string::{String, ToString};
 use alloc::vec;
 use alloc::vec::Vec;
+use cotama_playground::course::{Course, Plan, World};
 use cotama_playground::{Board, Pilot, Refused, answer};
 
 /// A model in play, with the last answer.
@@ -25,6 +26,9 @@ pub struct Page {
     board: Option<Board>,
     tables: Vec<u8>,
     pilot: Option<Pilot>,
+    world: Option<World>,
+    plan: Vec<u32>,
+    course: Option<Course>,
     words: Vec<u32>,
     text: String,
 }
@@ -37,6 +41,9 @@ pub extern "C" fn open(length: usize) -> *mut Page {
         board: None,
         tables: vec![],
         pilot: None,
+        world: None,
+        plan: vec![],
+        course: None,
         words: vec![],
         text: String::new(),
     };
@@ -113,8 +120,8 @@ pub extern "C" fn employ(page: &mut Page) -> u32 {
 }
 
 /// A period of the decider, in place of `tell`: flags that are up, modules that work, what is
-/// said (kind times 256, and number, and 1; 0 for nothing), whether the robot stands. Returns as
-/// `tell` does, and the account of the period.
+/// said (kind times 256, and number, and 1; 0 for nothing), what the planner tells (a failure after
+/// 1, or 0), whether the robot stands. Returns as `tell` does, and the account of the period.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments, reason = "a script passes numbers of 32 bits")]
 pub extern "C" fn period(
@@ -124,6 +131,7 @@ pub extern "C" fn period(
     works_low: u32,
     works_high: u32,
     said: u32,
+    planned: u32,
     stands: u32,
     low: u32,
     high: u32,
@@ -131,7 +139,7 @@ pub extern "C" fn period(
     let (Some(board), Some(pilot)) = (&mut page.board, &mut page.pilot) else { return 3 };
     let halves = |low: u32, high: u32| u64::from(high) << 32 | u64::from(low);
     let (up, works) = (halves(up_low, up_high), halves(works_low, works_high));
-    match pilot.period_number(board, [up, works, halves(low, high)], said, stands != 0) {
+    match pilot.period_number(board, [up, works, halves(low, high)], [said, planned], stands != 0) {
         Ok(words) => {
             page.words = words;
             0
@@ -145,6 +153,48 @@ pub extern "C" fn period(
 pub extern "C" fn pilot(page: &mut Page) {
     let state = page.pilot.as_ref().zip(page.board.as_ref()).map(|(it, board)| it.state(board));
     page.words = state.unwrap_or_default();
+}
+
+/// Takes the bytes in `tables` for the world of courses. Returns 0; or 1, and why not, as a text.
+#[unsafe(no_mangle)]
+pub extern "C" fn world(page: &mut Page) -> u32 {
+    match World::decode(&page.tables) {
+        Ok(world) => {
+            page.world = Some(world);
+            0
+        }
+        Err(why) => {
+            page.text = why.to_string();
+            1
+        }
+    }
+}
+
+/// So many numbers for a plan of faults, to be written.
+#[unsafe(no_mangle)]
+pub extern "C" fn plan(page: &mut Page, length: usize) -> *mut u32 {
+    page.plan = vec![0; length];
+    page.plan.as_mut_ptr()
+}
+
+/// Runs the plan from its start to its end, beside the run that is played. Returns 0, and the
+/// course; 1 when the plan is none, or there is no world.
+#[unsafe(no_mangle)]
+pub extern "C" fn course(page: &mut Page) -> u32 {
+    let (Some(board), Some(pilot), Some(world)) = (&page.board, &page.pilot, &page.world) else {
+        return 1;
+    };
+    let Some(plan) = Plan::of_numbers(&page.plan) else { return 1 };
+    let course = Course::of(pilot, board, world, &plan);
+    page.words = course.to_numbers();
+    page.course = Some(course);
+    0
+}
+
+/// Answers with the periods of the last course.
+#[unsafe(no_mangle)]
+pub extern "C" fn periods(page: &mut Page) {
+    page.words = page.course.as_ref().map(Course::inputs_to_numbers).unwrap_or_default();
 }
 
 /// Goes to after so many steps.
@@ -175,7 +225,7 @@ pub extern "C" fn words(page: &Page) -> *const u32 {
     page.words.as_ptr()
 }
 
-/// How many they are.
+/// The count of them.
 #[unsafe(no_mangle)]
 pub extern "C" fn words_length(page: &Page) -> usize {
     page.words.len()
@@ -187,7 +237,7 @@ pub extern "C" fn text(page: &Page) -> *const u8 {
     page.text.as_ptr()
 }
 
-/// How many bytes it has.
+/// The count of its bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn text_length(page: &Page) -> usize {
     page.text.len()
