@@ -49,7 +49,7 @@ CLICKS = """async (n) => {
         }
         const it = all[below(all.length)];
         const rare = { rounds: 40, start: 30, upto: 400, add: 40, fresh: 10, decider: 40 }[it.id];
-        if (it.disabled || (rare && below(rare) > 0)) continue;
+        if (it.disabled || it.closest("[hidden]") || (rare && below(rare) > 0)) continue;
         const from = performance.now();
         it.dispatchEvent(new MouseEvent("click", { bubbles: true }));
         const took = performance.now() - from;
