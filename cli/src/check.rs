@@ -6,7 +6,7 @@ mod files;
 mod junit;
 mod limit;
 pub(crate) mod questions;
-mod sarif;
+pub(crate) mod sarif;
 mod uri;
 mod watch;
 

@@ -77,7 +77,7 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
 }
 
 /// Writes a text to a file, or to standard output.
-fn put(text: &str, output: Option<&Path>, screen: &Screen) -> Result<(), Failure> {
+pub(crate) fn put(text: &str, output: Option<&Path>, screen: &Screen) -> Result<(), Failure> {
     let Some(path) = output else { return Screen::raw(text.as_bytes()) };
     output::file(path, text.as_bytes())?;
     screen.note(&format!("written: {NAME}{}{NAME:#}", path.display()));
@@ -183,7 +183,8 @@ fn notes(all: &[String], screen: &Screen) {
     all.iter().for_each(|it| screen.note(&format!("note: {}", visible(it))));
 }
 
-fn written(
+/// Writes a net in a format.
+pub(crate) fn written(
     net: &Net<'_>,
     format: Format,
     style: DrawnAs,

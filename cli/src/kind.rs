@@ -92,6 +92,7 @@ impl Kind {
             ("cotama/net/", Self::JsonNet),
             ("cotama-system/", Self::JsonSystem),
             ("cotama-certificate/", Self::Certificate),
+            ("cotama-tree-certificate/", Self::Certificate),
             ("cotama-trace/", Self::Trace),
             ("cotama/team-trace/", Self::TeamTrace),
             ("cotama-recording/", Self::Recording),

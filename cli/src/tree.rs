@@ -1,23 +1,28 @@
 //! Behaviour trees: what the commands on models do with the XML of BehaviorTree.CPP.
 
+mod certificate;
 pub(crate) mod check;
 mod conform;
 mod export;
+mod net;
 mod sarif;
 mod simulate;
 mod statespace;
 
-use crate::args::{LeafName, TreeArgs};
+use crate::args::{BudgetArgs, LeafName, TreeArgs};
 use crate::exit::Failure;
 use crate::file_errors::FileErrors;
 use crate::input;
 use crate::kind::{self, Kind};
 use crate::output::Screen;
 use cotama_trees::diagnostic::{Diagnostic, Refusal, Severity};
+use cotama_trees::explore::Limits;
 use cotama_trees::kinds::{LeafKind, read_leaves};
 use cotama_trees::reader::{Loaded, Options, read};
+use std::collections::BTreeMap;
 use std::path::Path;
 
+pub(crate) use certificate::{is_certificate, verify};
 pub(crate) use conform::conform;
 pub(crate) use export::export;
 pub(crate) use simulate::simulate;
@@ -45,8 +50,31 @@ fn only(options: &[(&'static str, bool)]) -> Result<(), Failure> {
     Err(Failure::new(message).help(format!("leave {option} out")))
 }
 
-/// Reads a tree with its files.
-pub(crate) fn load(path: &str, args: &TreeArgs) -> Result<Loaded, Failure> {
+/// Returns the limits that were given.
+fn limits(budget: &BudgetArgs) -> Limits {
+    let standard = Limits::default();
+    let bytes = usize::try_from(budget.max_memory).unwrap_or(usize::MAX);
+    Limits {
+        states: budget.max_states.map_or(standard.states, |it| it as usize),
+        bytes: bytes.saturating_mul(1 << 20).min(standard.bytes),
+        ..standard
+    }
+}
+
+/// A tree with the files that it was read from.
+struct Source {
+    loaded: Loaded,
+    options: Options,
+    files: BTreeMap<String, Vec<u8>>,
+}
+
+/// Reads a tree.
+fn load(path: &str, args: &TreeArgs) -> Result<Loaded, Failure> {
+    Ok(source(path, args)?.loaded)
+}
+
+/// Reads a tree, and keeps its files.
+fn source(path: &str, args: &TreeArgs) -> Result<Source, Failure> {
     let leaves = match &args.leaves {
         Some(file) => {
             let text = input::text(file, "a file of leaves", TREE_BYTES)?;
@@ -74,13 +102,18 @@ pub(crate) fn load(path: &str, args: &TreeArgs) -> Result<Loaded, Failure> {
         main: args.tree.clone(),
         search,
     };
+    let mut files = BTreeMap::new();
     let mut from = |path: &str| {
-        input::bytes(path, "a behaviour tree", TREE_BYTES).map_err(|failure| match failure {
+        let bytes = input::bytes(path, "a behaviour tree", TREE_BYTES);
+        let bytes = bytes.map_err(|failure| match failure {
             Failure::Message { message, .. } => message,
             Failure::Text(_) => "it is damaged".to_owned(),
-        })
+        })?;
+        files.insert(path.to_owned(), bytes.clone());
+        Ok(bytes)
     };
-    read(path, &mut from, &options).map_err(|it| refused(&it))
+    let loaded = read(path, &mut from, &options).map_err(|it| refused(&it))?;
+    Ok(Source { loaded, options, files })
 }
 
 /// Returns the XML files of a folder and of those in it, in the order of their names.

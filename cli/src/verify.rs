@@ -10,6 +10,7 @@ use crate::kind::{self, Kind};
 use crate::output::Screen;
 use crate::render;
 use crate::subject::Subject;
+use crate::tree;
 use cotama_verification::certificate::{Certificate, VerifyError, verify as verify_text};
 use cotama_verification::formats::json::{Wrong, in_words};
 
@@ -22,12 +23,20 @@ pub(crate) fn verify(args: &VerifyArgs, screen: &Screen) -> Result<Exit, Failure
         schema: "cotama/verify/1",
         verified: false,
         net: None,
+        tree: None,
         question: None,
         verdict: None,
         evidence: None,
         at: None,
         message: None,
     };
+    if tree::is_certificate(&text) {
+        if args.model.is_some() {
+            return Err(Failure::new("--model is not for certificates of behaviour trees")
+                .help("leave --model out: the certificate holds its files"));
+        }
+        return ended(&tree::verify(&text, nothing), args, screen);
+    }
     let shown = match (&args.model, &args.property) {
         (Some(model), Some(property)) => {
             let subject = Subject::load(model, true, args.semantics)?;
@@ -63,10 +72,14 @@ pub(crate) fn verify(args: &VerifyArgs, screen: &Screen) -> Result<Exit, Failure
             VerifyAnswer { at: Some(at), message: Some(message), ..nothing }
         }
     };
+    ended(&answer, args, screen)
+}
+
+fn ended(answer: &VerifyAnswer, args: &VerifyArgs, screen: &Screen) -> Result<Exit, Failure> {
     if args.json.json {
-        Screen::json(&answer)?;
+        Screen::json(answer)?;
     } else {
-        screen.print(&render::verify::screen(&answer, screen.width()))?;
+        screen.print(&render::verify::screen(answer, screen.width()))?;
     }
     Ok(if answer.verified { Exit::Success } else { Exit::Violated })
 }

@@ -114,7 +114,7 @@ fn a_tree_is_played_counted_and_written() {
         assert_eq!(ended.code, Some(0), "{format}: {}", ended.stderr);
         assert!(ended.stdout.contains("BackUp"), "{format}");
     }
-    assert_eq!(folder.cotama(&["export", "tree.xml", "--format", "pnml"]).code, Some(2));
+    assert_eq!(folder.cotama(&["export", "tree.xml", "--format", "scxml"]).code, Some(2));
     assert_eq!(folder.cotama(&["export", "door", "--format", "btcpp"]).code, Some(2));
 }
 
@@ -132,4 +132,66 @@ fn a_wrong_tree_is_refused_at_its_place() {
     let ended = folder.cotama(&["check", "throws.xml"]);
     assert_eq!(ended.code, Some(2));
     assert!(ended.stderr.contains("RecoveryNode has 3 children, and needs 2"), "{}", ended.stderr);
+}
+
+#[test]
+fn a_certificate_is_verified_and_a_changed_one_is_refused() {
+    let folder = folder("trees_certificate");
+    let property = ["--property", "AG !(Spin.running & BackUp.running)"];
+    let line = ["check", "tree.xml", "--certificate", "it.json", "--exclusive", "Spin,BackUp"];
+    assert_eq!(folder.cotama(&[&line[..], &property].concat()).code, Some(0));
+    let answer = folder.cotama(&["verify", "it.json", "--json"]).json(0);
+    validate("verify", &answer);
+    assert_eq!(answer["tree"], "Main (5 nodes)");
+    let shown = answer["question"].as_str().unwrap();
+    assert!(shown.contains("exclusive") && shown.ends_with(property[1]), "{shown}");
+    let other = folder.read("it.json").replace("RoundRobin>", "ParallelAll>");
+    folder.write("other.json", &other);
+    let ended = folder.cotama(&["verify", "other.json"]);
+    assert_eq!(ended.code, Some(1));
+    assert!(ended.stdout.contains("is not shown"), "{}", ended.stdout);
+}
+
+#[test]
+fn a_tree_is_a_net_with_the_same_verdicts() {
+    let folder = folder("trees_net");
+    for format in ["pnml", "jani"] {
+        let file = format!("tree.{format}");
+        let line = ["export", "tree.xml", "--format", format, "--output", &file];
+        assert_eq!(folder.cotama(&line).code, Some(0));
+    }
+    // As the tree: S and F end it, an end can always be reached, nothing is thrown.
+    for (property, code) in [
+        ("EF end_S", 0),
+        ("EF end_F", 0),
+        ("AG EF ended", 0),
+        ("AG !(end_S & end_F)", 0),
+        ("AG !end_F", 1),
+    ] {
+        let ended = folder.cotama(&["check", "tree.pnml", "--property", property]);
+        assert_eq!(ended.code, Some(code), "{property}: {}", ended.stdout);
+    }
+    let jani: Value = serde_json::from_str(&folder.read("tree.jani")).unwrap();
+    let states = folder.cotama(&["statespace", "tree.xml", "--json"]).json(0);
+    let points = jani["variables"].as_array().unwrap().len() as u64;
+    let (states, asks) = (states["states"].as_u64(), states["questions"].as_u64());
+    assert_eq!(points, states.unwrap() + asks.unwrap() + 2 + 1);
+}
+
+#[test]
+fn at_a_period_timers_count_and_differences_are_told() {
+    let folder = Folder::new("trees_period");
+    let tree = r#"<root BTCPP_format="4"><BehaviorTree ID="Main">
+      <Timeout msec="65"><RetryUntilSuccessful num_attempts="-1"><Delay delay_msec="100"><Spin/>
+      </Delay></RetryUntilSuccessful></Timeout></BehaviorTree></root>"#;
+    folder.write("tree.xml", tree);
+    let free = folder.cotama(&["check", "tree.xml", "--json"]).json(0);
+    let timed = folder.cotama(&["check", "tree.xml", "--period", "10", "--json"]).json(0);
+    assert_eq!(row(&free, "can-succeed")["verdict"], "true");
+    // The delay is longer than the timeout.
+    assert_eq!(row(&timed, "can-succeed")["verdict"], "false");
+    let notes = timed["notes"].to_string();
+    let bound = "Timeout@1 halts its child at most 7 ticks, 70 ms, after its start";
+    assert!(notes.contains(bound), "{notes}");
+    assert!(notes.contains("can-succeed: false, with free timers true"), "{notes}");
 }

@@ -319,6 +319,9 @@ pub(crate) struct VerifyAnswer {
     pub(crate) verified: bool,
     /// The net and its size.
     pub(crate) net: Option<String>,
+    /// The behaviour tree and its size, in place of a net.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) tree: Option<String>,
     pub(crate) question: Option<String>,
     /// The verdict that is shown.
     pub(crate) verdict: Option<bool>,

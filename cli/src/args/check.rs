@@ -54,7 +54,7 @@ Behaviour trees: of the XML of BehaviorTree.CPP 4 and Nav2 everything is asked t
 from a SUCCESS that is lost to a node that is never ticked; each finding has a run with the fewest \
 ticks. Own properties speak of nodes after a tick: `AG !(Wait.running & BackUp.running)`, \
 `EF root.success`, `AF done`. Findings that are errors end with exit code 1; --deny warnings \
-ends so for warnings too.
+ends so for warnings too. Timers go off when they like, unless --period says when ticks come.
 
 Evidence: --certificate FILE writes what `cotama verify` checks again. Of several properties each \
 has a file of its own, FILE-1.json, FILE-2.json and so on by its position; so for --trace.

@@ -41,6 +41,9 @@ pub(crate) struct TreeWishes {
     /// Lets leaves answer SKIPPED too
     #[arg(long)]
     pub(crate) skips: bool,
+    /// Lets ticks come every so many ms: timers and rates count, instead of being free
+    #[arg(long, value_name = "MS", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) period: Option<u32>,
     /// Shows notes too, each with its run
     #[arg(long)]
     pub(crate) notes: bool,
@@ -96,6 +99,7 @@ impl TreeWishes {
             ("--exclusive", !self.exclusive.is_empty()),
             ("--given", !self.given.is_empty()),
             ("--skips", self.skips),
+            ("--period", self.period.is_some()),
             ("--notes", self.notes),
             ("--deny", self.deny.is_some()),
             ("--html", self.html.is_some()),

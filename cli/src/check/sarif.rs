@@ -28,6 +28,11 @@ pub(super) fn text(answer: &CheckAnswer) -> String {
         results.push(result(&id, at, row, &answer.model));
     }
     let rules: Vec<Value> = rules.into_iter().map(|it| it.1).collect();
+    log(&rules, &results)
+}
+
+/// Writes one run of the checker with its rules and results.
+pub(crate) fn log(rules: &[Value], results: &[Value]) -> String {
     let log = json!({
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
         "version": "2.1.0",
@@ -41,6 +46,11 @@ pub(super) fn text(answer: &CheckAnswer) -> String {
         }],
     });
     text::json(&format!("{log:#}\n")).to_string()
+}
+
+/// Returns a file as a URI reference.
+pub(crate) fn reference(path: &str) -> String {
+    uri::reference(path, cfg!(windows))
 }
 
 /// Returns the id of a rule: never empty.
@@ -93,7 +103,7 @@ fn place(model: &str) -> Value {
         _ if catalogue::entry(family).is_some() => {
             (uri::reference(&format!("builtin/{model}"), false), false)
         }
-        path => (uri::reference(path, cfg!(windows)), true),
+        path => (reference(path), true),
     };
     let region = json!({ "startLine": 1, "startColumn": 1, "endLine": 1, "endColumn": 1 });
     let physical = json!({ "artifactLocation": { "uri": uri }, "region": region });

@@ -9,7 +9,11 @@ pub(crate) fn screen(answer: &VerifyAnswer, width: usize) -> String {
     let said = |text: &Option<String>| visible(text.as_deref().unwrap_or_default());
     if answer.verified {
         let verdict = answer.verdict.unwrap_or_default();
-        let net = wrapped(&format!("net {}", said(&answer.net)), width, "  ");
+        let about = match &answer.tree {
+            Some(tree) => format!("tree {}", visible(tree)),
+            None => format!("net {}", said(&answer.net)),
+        };
+        let net = wrapped(&about, width, "  ");
         let claim = wrapped(&format!("{} is {verdict}", said(&answer.question)), width, "  ");
         let by = wrapped(&format!("by {}", said(&answer.evidence)), width, "  ");
         return format!("{GOOD}verified{GOOD:#}\n{net}{claim}{by}");

@@ -1,6 +1,6 @@
 //! `cotama check` of a behaviour tree.
 
-use super::{load, only, sarif, sound};
+use super::{certificate, limits, only, sarif, sound, source};
 use crate::answers::check::tree::{TreeAnswer, TreeNoteRow, TreeRow, TreeTickRow};
 use crate::args::{CheckArgs, Deny, EngineName};
 use crate::exit::{Exit, Failure};
@@ -11,12 +11,12 @@ use crate::render::style::NAME;
 use cotama_trees::explore::{
     Assumptions, Limits, Run, check_property, parse_assumption, parse_property,
 };
-use cotama_trees::findings::{Level, Report, Wishes, check as ask};
+use cotama_trees::findings::{Level, Report, Wishes, check as ask, timeouts};
 use cotama_trees::kinds::LeafKind;
 use cotama_trees::page::{self, Section};
 use cotama_trees::reader::Loaded;
 use cotama_trees::replay::frames;
-use cotama_trees::tree::{Kind, Tree};
+use cotama_trees::tree::{Gate, Kind, Tree};
 use std::time::Instant;
 
 const ENGINE: &str = "explicit";
@@ -28,8 +28,9 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
         output::report(folder)?;
     }
     let begun = Instant::now();
-    let loaded = load(&args.model, &args.tree)?;
-    sound(&loaded)?;
+    let source = source(&args.model, &args.tree)?;
+    let loaded = &source.loaded;
+    sound(loaded)?;
     let tree = &loaded.tree;
     let wishes = wishes(args, tree)?;
     let properties = args.property.iter().map(|text| {
@@ -39,10 +40,14 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
         })
     });
     let properties = properties.collect::<Result<Vec<_>, _>>()?;
-    let limits = limits(args);
+    let limits = limits(&args.budget);
     let report = ask(tree, &wishes, limits);
     let seconds = begun.elapsed().as_secs_f64();
-    let mut answer = answer(&args.model, &loaded, &report, seconds);
+    let mut answer = answer(&args.model, loaded, &report, seconds);
+    if let Some(period) = args.wishes.period {
+        answer.notes[0] = free(tree, true);
+        answer.notes.extend(timed(tree, period, &wishes, &report, limits));
+    }
     let mut runs: Vec<Option<Run>> = runs(&report);
     for (text, property) in args.property.iter().zip(&properties) {
         let begun = Instant::now();
@@ -73,6 +78,9 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
         runs.push(found.run);
     }
     written(args, tree, &answer, &runs, screen)?;
+    if let Some(path) = &args.certificate {
+        certificate::write(path, args, &source, &answer, screen)?;
+    }
     if args.json.json {
         Screen::json(&answer)?;
     } else {
@@ -89,7 +97,6 @@ fn refuse_others(args: &CheckArgs) -> Result<(), Failure> {
         ("--engine", args.engine != EngineName::Auto),
         ("--untimed", args.untimed),
         ("--semantics", args.semantics.is_some()),
-        ("--certificate", args.certificate.is_some()),
         ("--trace", args.trace.is_some()),
         ("--watch", args.watch),
         ("--junit", args.junit.is_some()),
@@ -99,17 +106,6 @@ fn refuse_others(args: &CheckArgs) -> Result<(), Failure> {
     ])
 }
 
-/// Returns the limits that were given.
-fn limits(args: &CheckArgs) -> Limits {
-    let standard = Limits::default();
-    let bytes = usize::try_from(args.budget.max_memory).unwrap_or(usize::MAX);
-    Limits {
-        states: args.budget.max_states.map_or(standard.states, |it| it as usize),
-        bytes: bytes.saturating_mul(1 << 20).min(standard.bytes),
-        ..standard
-    }
-}
-
 fn wishes(args: &CheckArgs, tree: &Tree) -> Result<Wishes, Failure> {
     let asked = &args.wishes;
     let assumptions = asked.assume.iter().map(|text| {
@@ -117,8 +113,18 @@ fn wishes(args: &CheckArgs, tree: &Tree) -> Result<Wishes, Failure> {
             .map_err(|why| Failure::new(format!("--assume '{text}': {why}")))
     });
     let assumptions = assumptions.collect::<Result<Vec<_>, _>>()?;
+    Ok(Wishes {
+        exclusive: exclusive(args, tree)?,
+        given: asked.given.clone(),
+        skips: asked.skips,
+        assumptions: Assumptions::new(assumptions).every(asked.period),
+    })
+}
+
+/// Returns the actions that exclude each other.
+pub(super) fn exclusive(args: &CheckArgs, tree: &Tree) -> Result<Vec<usize>, Failure> {
     let mut exclusive = Vec::new();
-    for name in &asked.exclusive {
+    for name in &args.wishes.exclusive {
         let nodes = tree.nodes.iter().enumerate().filter(|(_, it)| it.is_action());
         let found: Vec<_> = nodes
             .clone()
@@ -135,34 +141,68 @@ fn wishes(args: &CheckArgs, tree: &Tree) -> Result<Wishes, Failure> {
         }
         exclusive.extend(found);
     }
-    Ok(Wishes {
-        exclusive,
-        given: asked.given.clone(),
-        skips: asked.skips,
-        assumptions: Assumptions::new(assumptions),
-    })
+    Ok(exclusive)
 }
 
-/// Returns what is free and what is left out.
-fn free(tree: &Tree) -> Vec<String> {
+/// Returns bounds of timeouts, and which answers are others where timers are free.
+fn timed(
+    tree: &Tree,
+    period: u32,
+    wishes: &Wishes,
+    report: &Report,
+    limits: Limits,
+) -> Vec<String> {
+    let mut notes: Vec<_> = timeouts(tree, period)
+        .into_iter()
+        .map(|(node, bound)| match bound {
+            Some((ticks, ms)) => {
+                let node = tree.shown(node);
+                format!("{node} halts its child at most {ticks} ticks, {ms} ms, after its start")
+            }
+            None => format!("{} has no bound: an entry says it", tree.shown(node)),
+        })
+        .collect();
+    let assumptions = wishes.assumptions.clone().every(None);
+    let free = ask(tree, &Wishes { assumptions, ..wishes.clone() }, limits);
+    for (free, timed) in free.asked.iter().zip(&report.asked) {
+        if free.holds != timed.holds {
+            let said = |it: Option<bool>| it.map_or("unknown".to_owned(), |it| it.to_string());
+            let (now, before) = (said(timed.holds), said(free.holds));
+            let why = match (free.holds, timed.holds) {
+                (Some(false), Some(true)) => "a timer would have to go off at another tick",
+                (Some(true), Some(false)) => "no timer goes off at the tick that this takes",
+                _ => "a limit was met",
+            };
+            notes.push(format!("{}: {now}, with free timers {before}: {why}", timed.question));
+        }
+    }
+    notes
+}
+
+/// Returns what is free.
+fn free(tree: &Tree, timed: bool) -> String {
     let count = |is: &dyn Fn(&Kind) -> bool| tree.nodes.iter().filter(|it| is(&it.kind)).count();
     let leaves = count(&|it| matches!(it, Kind::Leaf(_)));
     let latches = count(&|it| {
         matches!(it, Kind::Leaf(LeafKind::Latch | LeafKind::FirstSuccess | LeafKind::FirstFailure))
     });
-    let gates = count(&|it| matches!(it, Kind::Gate(_) | Kind::PathLongerOnApproach));
-    let timers =
-        count(&|it| matches!(it, Kind::Delay { .. } | Kind::Timeout { .. } | Kind::Sleep { .. }));
+    let rate = |it: &Kind| matches!(it, Kind::Gate(Gate::Rate { .. }));
+    let gates = count(&|it| {
+        matches!(it, Kind::Gate(_) | Kind::PathLongerOnApproach) && !(timed && rate(it))
+    });
+    let timers = count(&|it| {
+        matches!(it, Kind::Delay { .. } | Kind::Timeout { .. } | Kind::Sleep { .. }) && !timed
+    });
     let mut all = vec![format!("answers of leaves: {leaves}")];
     if latches > 0 {
         all.push(format!("of which begin by a rule: {latches}"));
     }
     all.extend((gates > 0).then(|| format!("gates: {gates}")));
     all.extend((timers > 0).then(|| format!("timers: {timers}")));
-    let mut notes = vec![format!("free: {}; what leaves write is not followed", all.join(", "))];
-    notes.push("fair: actions that run end or are halted, gates open again and again".to_owned());
-    notes
+    format!("free: {}; what leaves write is not followed", all.join(", "))
 }
+
+const FAIR: &str = "fair: actions that run end or are halted, gates open again and again";
 
 fn ticks(tree: &Tree, run: &Run) -> Vec<TreeTickRow> {
     let all = frames(tree, run).unwrap_or_default().into_iter().enumerate();
@@ -238,7 +278,7 @@ fn answer(model: &str, loaded: &Loaded, report: &Report, seconds: f64) -> TreeAn
         model: model.to_owned(),
         tree: tree.name.clone(),
         nodes: tree.nodes.len(),
-        notes: free(tree),
+        notes: vec![free(tree, false), FAIR.to_owned()],
         warnings: warnings.collect(),
         unused_assumptions: report.unused.clone(),
         complete: report.complete,

@@ -1,10 +1,10 @@
 //! `cotama export` of a behaviour tree.
 
-use super::{load, only, warn};
-use crate::args::{ExportArgs, Format};
+use super::{load, net, only, warn};
+use crate::args::{DrawnAs, ExportArgs, Format};
 use crate::exit::{Exit, Failure};
-use crate::output::{self, Screen};
-use crate::render::style::NAME;
+use crate::export::{put, written};
+use crate::output::Screen;
 use cotama_trees::export as write;
 use cotama_trees::picture;
 use cotama_trees::tree::{Kind, Tree};
@@ -26,20 +26,17 @@ pub(crate) fn export(args: &ExportArgs, format: Format, screen: &Screen) -> Resu
         Format::Mermaid => write::mermaid(tree),
         Format::Btcpp => write::btcpp(tree),
         Format::Json => format!("{:#}\n", document(tree)),
+        Format::Pnml | Format::Jani => {
+            let net = net::of(tree, format)?;
+            written(&net.view().net(), format, DrawnAs::Auto, screen)?
+        }
         _ => {
             let message = "a behaviour tree is not written in this format";
-            return Err(
-                Failure::new(message).help("formats of trees: svg, dot, mermaid, btcpp, json")
-            );
+            return Err(Failure::new(message)
+                .help("formats of trees: svg, dot, mermaid, btcpp, json, pnml, jani"));
         }
     };
-    match &args.output {
-        None => Screen::raw(text.as_bytes())?,
-        Some(path) => {
-            output::file(path, text.as_bytes())?;
-            screen.note(&format!("written: {NAME}{}{NAME:#}", path.display()));
-        }
-    }
+    put(&text, args.output.as_deref(), screen)?;
     Ok(Exit::Success)
 }
 

@@ -1,7 +1,7 @@
 //! Findings about a tree in SARIF 2.1.0, each at the line of its node.
 
 use crate::answers::check::tree::{TreeAnswer, TreeRow};
-use cotama_core::text;
+use crate::check::sarif::{log, reference};
 use serde_json::{Value, json};
 
 /// Writes one run of the checker: a rule for each question, a result for each finding.
@@ -15,23 +15,12 @@ pub(super) fn text(answer: &TreeAnswer) -> String {
     }
     let found = answer.results.iter().filter(|it| it.message.is_some());
     let results: Vec<_> = found.map(|it| result(it, &answer.model)).collect();
-    let log = json!({
-        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
-        "version": "2.1.0",
-        "runs": [{
-            "tool": { "driver": {
-                "name": "cotama",
-                "version": env!("CARGO_PKG_VERSION"),
-                "rules": rules.into_iter().map(|it| it.1).collect::<Vec<_>>(),
-            } },
-            "results": results,
-        }],
-    });
-    text::json(&format!("{log:#}\n")).to_string()
+    let rules: Vec<Value> = rules.into_iter().map(|it| it.1).collect();
+    log(&rules, &results)
 }
 
 fn result(row: &TreeRow, model: &str) -> Value {
-    let uri = row.file.as_deref().unwrap_or(model);
+    let uri = reference(row.file.as_deref().unwrap_or(model));
     let region = json!({
         "startLine": row.line.unwrap_or(1).max(1),
         "startColumn": row.column.unwrap_or(1).max(1),

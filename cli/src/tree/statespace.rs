@@ -1,12 +1,12 @@
 //! `cotama statespace` of a behaviour tree.
 
-use super::{load, only, warn};
+use super::{limits, load, only, warn};
 use crate::answers::check::tree::TreeSpaceAnswer;
 use crate::args::StatespaceArgs;
 use crate::exit::{Exit, Failure};
 use crate::output::Screen;
 use crate::render;
-use cotama_trees::explore::{Assumptions, Limits, Space};
+use cotama_trees::explore::{Assumptions, Space};
 use std::time::Instant;
 
 /// Counts the states of a tree between ticks.
@@ -22,13 +22,7 @@ pub(crate) fn statespace(args: &StatespaceArgs, screen: &Screen) -> Result<Exit,
     let loaded = load(&args.model, &args.tree)?;
     warn(&loaded, screen);
     let tree = &loaded.tree;
-    let standard = Limits::default();
-    let bytes = usize::try_from(args.budget.max_memory).unwrap_or(usize::MAX);
-    let limits = Limits {
-        states: args.budget.max_states.map_or(standard.states, |it| it as usize),
-        bytes: bytes.saturating_mul(1 << 20).min(standard.bytes),
-        ..standard
-    };
+    let limits = limits(&args.budget);
     let mut space = Space::explore(tree, false, Assumptions::default(), limits);
     let facts = space.facts(&[]);
     let complete = space.is_complete();

@@ -2,7 +2,7 @@
 
 use crate::explore::{Assumptions, End, Facts, Limits, Pair, Run, Space};
 use crate::kinds::LeafKind;
-use crate::tree::{Answer, Kind, Tree};
+use crate::tree::{Answer, Kind, Number, Tree};
 
 /// Weight of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -123,6 +123,21 @@ pub fn check(tree: &Tree, wishes: &Wishes, limits: Limits) -> Report {
     let unused = space.assumptions().list.iter().filter(|it| complete && !it.used);
     let unused = unused.map(|it| it.text.clone()).collect();
     Report { asked: asked.collect(), findings, facts: facts.clone(), unused, complete }
+}
+
+/// Returns how long each `Timeout` lets its child run, where ticks come every so many ms: ticks
+/// after that of its start, and ms. What an entry says has no bound.
+pub fn timeouts(tree: &Tree, period: u32) -> Vec<(usize, Option<(i64, i64)>)> {
+    let nodes = tree.nodes.iter().enumerate();
+    let all = nodes.filter_map(|(node, it)| match it.kind {
+        Kind::Timeout { msec: Number::Is(msec) } if msec > 0 => {
+            let ticks = (msec as u64).div_ceil(period.max(1) as u64) as i64;
+            Some((node, Some((ticks, ticks * period as i64))))
+        }
+        Kind::Timeout { .. } => Some((node, None)),
+        _ => None,
+    });
+    all.collect()
 }
 
 struct Found<'a, 't> {

@@ -5,7 +5,7 @@
 //! Tree      -> Machine   machine   ticked with given replies: every choice is a question
 //! Machine   -> Accepted  conform   a recorded run is one of the tree, or departs in a row
 //! Machine   -> Space     explore   all runs when the world answers as it likes, breadth first
-//! Machine   -> Plain     plain     the same walked plainly, to compare
+//! Machine   -> Plain     plain     the same walked plainly, to compare and to verify certificates
 //! Space     -> Facts     explore   how it ends, what is lost, what never ends, with shortest runs
 //! ```
 //!
@@ -34,6 +34,7 @@
 )]
 #![cfg_attr(test, allow(clippy::pedantic, clippy::unwrap_used))]
 
+pub mod certificate;
 pub mod conform;
 pub mod diagnostic;
 pub mod explore;

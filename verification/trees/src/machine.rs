@@ -20,6 +20,7 @@ use crate::tree::{Answer, Kind, Tree};
 pub(crate) use boards::Store;
 pub(crate) use cells::Layout;
 use std::fmt;
+use timers::Beat;
 pub use words::{Event, How, Question, Reply, Status, Stop, Thrown};
 
 /// The cause of an exception, before a node is named.
@@ -77,6 +78,8 @@ pub struct Machine<'t> {
     pub(crate) lost: Vec<(u32, u32)>,
     /// For each node, the cell that notes its answer of this tick, where this is watched.
     pub(crate) watched: Vec<Option<usize>>,
+    /// Time between two ticks, where they come at a period.
+    beat: Option<Beat>,
 }
 
 impl<'t> Machine<'t> {
@@ -98,6 +101,7 @@ impl<'t> Machine<'t> {
             said: vec![0; tree.nodes.len()],
             lost: Vec::new(),
             watched: vec![None; tree.nodes.len()],
+            beat: None,
         };
         for (node, it) in tree.nodes.iter().enumerate() {
             if matches!(it.kind, Kind::PathLongerOnApproach | Kind::SingleTrigger) {
@@ -119,6 +123,13 @@ impl<'t> Machine<'t> {
             *clock += ms;
             self.now = *clock;
         }
+    }
+
+    /// Makes a tree that is ticked every so many ms: timers and rates count, and ask nothing.
+    pub fn with_period(tree: &'t Tree, ms: u32) -> Machine<'t> {
+        let mut machine = Machine::new(tree);
+        machine.count(ms);
+        machine
     }
 
     /// Returns the status of a node.
@@ -234,7 +245,10 @@ impl<'t> Machine<'t> {
             cursor = match cursor {
                 Cursor::Timers(after) => match self.timers(after) {
                     Ok(Some(node)) => return self.ask(node),
-                    Ok(None) => Cursor::Enter(0),
+                    Ok(None) => {
+                        self.beat();
+                        Cursor::Enter(0)
+                    }
                     Err(fault) => return thrown(None, fault),
                 },
                 Cursor::Enter(node) => {
@@ -260,6 +274,7 @@ impl<'t> Machine<'t> {
                         if answer.is_done() {
                             self.put_status(0, Status::Idle);
                         }
+                        self.rest();
                         return Stop::Answered(answer);
                     };
                     let position = self.tree.nodes[node].position;

@@ -48,9 +48,14 @@ pub fn svg(tree: &Tree, statuses: Option<&str>) -> String {
         escaped(&tree.name)
     );
     out.push_str(
-        "<style>text{font:13px ui-monospace,monospace;fill:#111}.detail{fill:#666}\
+        "<style>svg{background:#fff}text{font:13px ui-monospace,monospace;fill:#111}\
+         .detail{fill:#666}\
          path{fill:none;stroke:#999}rect{stroke:#444;fill:#fff}\
-         .S{fill:#b7e3c0}.F{fill:#f3b8a8}.R{fill:#f6dc8c}.K{fill:#d5d5d5}</style>\n",
+         .S{fill:#b7e3c0}.F{fill:#f3b8a8}.R{fill:#f6dc8c}.K{fill:#d5d5d5}\
+         @media screen and (prefers-color-scheme:dark){svg{background:#161616}\
+         text{fill:#eee}.detail{fill:#aaa}\
+         rect{stroke:#bbb;fill:#222}.S{fill:#23633a}.F{fill:#8a3a26}.R{fill:#775c0c}\
+         .K{fill:#555}}</style>\n",
     );
     let x = |at: usize| MARGIN + levels[at] * LEVEL;
     let y = |at: usize| MARGIN + at * ROW;

@@ -1,4 +1,4 @@
-//! A plain walk through all that a tree can do, by which explorations are checked.
+//! A plain walk through all that a tree can do, by which explorations and certificates are checked.
 //!
 //! Shares the executor with the exploration, and nothing else: whole machines are kept, not packed
 //! words; each state's ticks are walked for themselves; there is no graph of questions. It is slow

@@ -27,7 +27,10 @@ pub struct Frame {
 ///
 /// Returns the tick, from 1, that does not take the replies: then the run is of another tree.
 pub fn frames(tree: &Tree, run: &Run) -> Result<Vec<Frame>, usize> {
-    let mut machine = Machine::new(tree);
+    let mut machine = match run.period {
+        Some(ms) => Machine::with_period(tree, ms),
+        None => Machine::new(tree),
+    };
     let mut frames = Vec::new();
     for (at, step) in run.steps.iter().enumerate() {
         machine.said.fill(0);

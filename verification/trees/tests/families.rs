@@ -1,6 +1,7 @@
 //! Families of trees, whose numbers of states are known by formulas.
 
 use cotama_trees::explore::{Assumptions, Limits, Space};
+use cotama_trees::findings::timeouts;
 use cotama_trees::reader::read_text;
 
 /// Returns the numbers of states, before and after merging.
@@ -55,5 +56,22 @@ fn nested_recoveries_have_the_states_of_the_formula() {
         });
         let states = 2 * 3_usize.pow(n);
         assert_eq!(size(&nested), (states, states), "{n}");
+    }
+}
+
+#[test]
+fn a_timeout_halts_its_child_after_the_ticks_of_its_bound() {
+    for (msec, period) in [(70, 10), (65, 10), (5, 10), (1_000, 10)] {
+        let text = format!(
+            "<root BTCPP_format=\"4\"><BehaviorTree ID=\"T\"><Timeout msec=\"{msec}\"><A1/>\
+             </Timeout></BehaviorTree></root>"
+        );
+        let tree = read_text(&text).unwrap().tree;
+        let assumptions = Assumptions::default().every(Some(period));
+        let space = Space::explore(&tree, false, assumptions, Limits::default());
+        // The child starts in the first tick; the last of these states ends in the next one.
+        let (ticks, ms) = timeouts(&tree, period)[0].1.unwrap();
+        assert_eq!((space.size().0 as i64, ms), (1 + ticks, ticks * period as i64));
+        assert_eq!(ms, msec.max(10) / 10 * 10 + if msec % 10 > 0 && msec > 10 { 10 } else { 0 });
     }
 }

@@ -8,6 +8,8 @@ mod families;
 mod folder;
 mod found;
 mod mutants;
+mod pictures;
 mod plain;
 mod random;
+mod skips;
 mod traces;

@@ -1,9 +1,10 @@
-//! The exploration beside a plain walk by the executor alone.
+//! The exploration beside a plain walk by the executor alone; ticks at a period beside a clock.
 
 use crate::random::Maker;
 use cotama_streams::Streams;
 use cotama_trees::explore::{Assumptions, Limits, Pair, Space};
 use cotama_trees::findings::{Wishes, check};
+use cotama_trees::machine::{Machine, Stop};
 use cotama_trees::plain::walk;
 use cotama_trees::reader::read_text;
 use cotama_trees::tree::Answer;
@@ -16,9 +17,11 @@ fn compared(count: usize, name: &str) -> usize {
         let text = maker.tree_of(2 + number % 2);
         let tree = read_text(&text).unwrap().tree;
         let skips = number % 5 == 0;
-        let Some(plain) = walk(&tree, skips, Assumptions::default(), None, 400) else { continue };
+        let period = [None, Some(20)][number / 2 % 2];
+        let assumptions = Assumptions::default().every(period);
+        let Some(plain) = walk(&tree, skips, assumptions.clone(), None, 400) else { continue };
         let limits = Limits::default();
-        let mut space = Space::explore(&tree, skips, Assumptions::default(), limits);
+        let mut space = Space::explore(&tree, skips, assumptions.clone(), limits);
         let facts = space.facts(&[]);
         let pairs = |all: &[Pair]| all.iter().map(|it| (it.nodes, it.ticks)).collect();
         assert_eq!(facts.states, plain.states, "{text}");
@@ -33,7 +36,7 @@ fn compared(count: usize, name: &str) -> usize {
         };
         assert_eq!(facts.never_success, says(Answer::Success), "{text}");
         assert_eq!(facts.never_failure, says(Answer::Failure), "{text}");
-        let report = check(&tree, &Wishes { skips, ..Wishes::default() }, limits);
+        let report = check(&tree, &Wishes { skips, assumptions, ..Wishes::default() }, limits);
         let throws = report.findings.iter().any(|it| it.question == "halt-exception");
         assert_eq!(throws, plain.halting_throws, "{text}");
         compared += 1;
@@ -43,11 +46,41 @@ fn compared(count: usize, name: &str) -> usize {
 
 #[test]
 fn explorations_of_random_trees_agree_with_a_plain_walk() {
-    assert_eq!(compared(300, "plain"), 292);
+    assert_eq!(compared(300, "plain"), 293);
 }
 
 #[test]
 #[ignore = "seconds: CI runs it"]
 fn explorations_of_two_thousand_random_trees_agree_with_a_plain_walk() {
     assert_eq!(compared(2_100, "plain, many"), 2_046);
+}
+
+#[test]
+fn ticks_at_a_period_are_ticks_by_the_clock() {
+    let mut maker = Maker { stream: Streams::new(46).stream("periods"), leaves: 0 };
+    let mut timed = 0;
+    for _ in 0..600 {
+        let text = maker.tree();
+        let tree = read_text(&text).unwrap().tree;
+        let ms = [10, 25, 30, 200][maker.below(4)];
+        let mut beating = Machine::with_period(&tree, ms);
+        let mut clock = Machine::with_clock(&tree);
+        timed += ["Delay", "Timeout", "Sleep", "Rate"].iter().any(|it| text.contains(it)) as u32;
+        for _ in 0..12 {
+            let mut stops = (beating.tick(), clock.tick());
+            while let (Stop::Asked(question), _) = stops {
+                assert_eq!(stops.0, stops.1, "{text}");
+                let reply = question.replies[maker.below(question.replies.len())];
+                stops = (beating.reply(reply), clock.reply(reply));
+            }
+            assert_eq!(stops.0, stops.1, "{text}");
+            assert_eq!(beating.take_events(), clock.take_events(), "{text}");
+            assert_eq!(beating.blackboard(), clock.blackboard(), "{text}");
+            if matches!(stops.0, Stop::Thrown(_)) {
+                break;
+            }
+            clock.wait(ms as i64);
+        }
+    }
+    assert_eq!(timed, 221);
 }

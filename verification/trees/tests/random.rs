@@ -3,7 +3,7 @@
 use crate::folder::folder;
 use cotama_streams::{Stream, Streams};
 use cotama_trees::explore::{Assumptions, Limits, Space};
-use cotama_trees::machine::{Machine, Stop};
+use cotama_trees::machine::{Machine, Reply, Stop};
 use cotama_trees::reader::{Options, read, read_text};
 use std::fmt::Write as _;
 
@@ -56,7 +56,7 @@ pub(crate) struct Maker {
 }
 
 impl Maker {
-    fn below(&mut self, most: usize) -> usize {
+    pub(crate) fn below(&mut self, most: usize) -> usize {
         self.stream.below(most as u64) as usize
     }
 
@@ -102,7 +102,7 @@ impl Maker {
         let _ = write!(out, "</{tag}>");
     }
 
-    fn tree(&mut self) -> String {
+    pub(crate) fn tree(&mut self) -> String {
         self.tree_of(3)
     }
 
@@ -207,6 +207,77 @@ fn a_thousand_random_trees_tick_as_in_the_second_program() {
         String::from_utf8_lossy(&output.stderr).into_owned(),
     );
     assert!(said.ends_with("\n0 differ\n") || said == "0 differ\n", "{said}{wrong}");
+    std::fs::remove_dir_all(&place).unwrap();
+}
+
+/// Walks at random through what was explored of all trees of a folder: tree, run, events, status.
+const WALK: &str = "
+import sys, os, random
+sys.path.insert(0, sys.argv[1])
+import tree as loader
+from explore import Space
+from sample import walks
+draw = random.Random(46)
+for n in range(int(sys.argv[3])):
+    try:
+        space = Space(loader.load(os.path.join(sys.argv[2], str(n)) + '.xml'), False, 3000)
+    except MemoryError:
+        continue
+    for run, answers, rows in walks(space, 8, 10, draw):
+        for row in rows:
+            print(n, run, row[3], row[4], sep='\\t')
+";
+
+#[test]
+#[ignore = "half a minute, and Python: CI runs it"]
+fn walks_through_what_the_second_program_explored_are_walks_of_ours() {
+    let Some(folder) = folder() else { return };
+    let mut maker = Maker { stream: Streams::new(46).stream("walks"), leaves: 0 };
+    let place = std::env::temp_dir().join(format!("cotama-walks-{}", std::process::id()));
+    std::fs::create_dir_all(&place).unwrap();
+    let texts: Vec<_> = (0..1_000).map(|_| maker.tree_of(2)).collect();
+    for (number, text) in texts.iter().enumerate() {
+        std::fs::write(place.join(format!("{number}.xml")), text).unwrap();
+    }
+    let mut command = std::process::Command::new("python3");
+    command.args(["-c", WALK]).arg(folder.join("reference")).arg(&place).arg("1000");
+    let output = command.output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    let rows: Vec<Vec<_>> = said.lines().map(|it| it.split('\t').collect()).collect();
+    let (mut walks, mut at) = (0, 0);
+    while at < rows.len() {
+        let (number, run) = (rows[at][0], rows[at][1]);
+        let tree = read_text(&texts[number.parse::<usize>().unwrap()]).unwrap().tree;
+        let mut machine = Machine::new(&tree);
+        while at < rows.len() && rows[at][..2] == [number, run] {
+            let words = rows[at][2].split(' ');
+            let mut replies = words.filter_map(|it| {
+                let asked = it.contains([':', '~', '?']);
+                asked.then(|| Reply::of_letter(it.chars().last()?)).flatten()
+            });
+            machine.take_wake();
+            let mut stop = machine.tick();
+            while let Stop::Asked(_) = stop {
+                stop = machine.reply(replies.next().unwrap());
+            }
+            let events = machine.take_events();
+            let shown: Vec<_> = events.iter().map(|it| it.shown(&tree)).collect();
+            let shown = if shown.is_empty() { "-".to_owned() } else { shown.join(" ") };
+            assert_eq!(shown, rows[at][2], "{number}.xml, run {run}");
+            let status = match stop {
+                Stop::Answered(it) => it.letter().to_string(),
+                Stop::Thrown(it) => {
+                    it.node.map_or("X".to_owned(), |it| format!("X@{}", tree.nodes[it].name))
+                }
+                Stop::Asked(_) => unreachable!("it was answered"),
+            };
+            assert_eq!(status, rows[at][3], "{number}.xml, run {run}");
+            at += 1;
+        }
+        walks += 1;
+    }
+    assert_eq!(walks, 7_800);
     std::fs::remove_dir_all(&place).unwrap();
 }
 

@@ -24,6 +24,8 @@ pub struct Assumption {
 pub struct Assumptions {
     /// Each with its use.
     pub list: Vec<Assumption>,
+    /// Time between two ticks in ms; without it timers go off when they like.
+    pub period: Option<u32>,
     /// The cell that notes whether the entry of an assumption was written.
     cells: Vec<Option<usize>>,
     /// Leaves that write the entry of an assumption, with its cell.
@@ -89,11 +91,21 @@ pub fn parse_assumption(tree: &Tree, text: &str) -> Result<Assumption, String> {
 impl Assumptions {
     /// Puts assumptions together.
     pub fn new(list: Vec<Assumption>) -> Assumptions {
-        Assumptions { list, cells: Vec::new(), writers: Vec::new() }
+        Assumptions { list, ..Assumptions::default() }
     }
 
-    /// Makes a cell for each entry that an assumption waits for.
+    /// Lets ticks come every so many ms.
+    #[must_use]
+    pub fn every(mut self, ms: Option<u32>) -> Assumptions {
+        self.period = ms;
+        self
+    }
+
+    /// Makes a cell for each entry that an assumption waits for, and for each timer that counts.
     pub(crate) fn reserve(&mut self, machine: &mut Machine) {
+        if let Some(ms) = self.period {
+            machine.count(ms);
+        }
         let mut known: Vec<((usize, String), usize)> = Vec::new();
         for it in &self.list {
             let cell = it.until.as_ref().map(|entry| {

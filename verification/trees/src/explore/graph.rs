@@ -1,5 +1,6 @@
 //! Points and edges of the graph.
 
+use super::Space;
 use crate::machine::Reply;
 use crate::tree::{Answer, Tree};
 
@@ -30,6 +31,38 @@ pub(crate) enum What {
     /// The node that asks.
     Asks(usize),
     End(End),
+}
+
+/// A point of the graph as others may read it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Point {
+    /// `s0`, `s1` and so on for states between ticks, `q5_Spin` for questions, `end_S`, `end_X`.
+    pub name: String,
+    /// Whether a run ends there.
+    pub is_end: bool,
+    /// Replies with their events, and the points that they lead to.
+    pub edges: Vec<(String, usize)>,
+}
+
+impl Space<'_> {
+    /// Returns all points, the first of which is the fresh tree.
+    pub fn points(&self) -> Vec<Point> {
+        let point = |at: usize| {
+            let what = self.what(at);
+            let name = match what {
+                What::State => format!("s{at}"),
+                What::Asks(node) => format!("q{at}_{}", self.tree.shown(node)),
+                What::End(end) => format!("end_{}", end.shown(self.tree)),
+            };
+            let edges = self.out(at).map(|it| {
+                let events = self.events(it).iter().map(|it| it.shown(self.tree));
+                let events = events.collect::<Vec<_>>().join(" ");
+                (events, self.edges[it].target as usize)
+            });
+            Point { name, is_end: matches!(what, What::End(_)), edges: edges.collect() }
+        };
+        (0..self.len()).map(point).collect()
+    }
 }
 
 /// An edge: the reply, what happened, where to.

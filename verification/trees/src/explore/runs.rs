@@ -24,6 +24,8 @@ pub struct Run {
     pub steps: Vec<Step>,
     /// The step from which on the run repeats for ever, if it does.
     pub again_from: Option<usize>,
+    /// Time between two ticks in ms, where timers count.
+    pub period: Option<u32>,
 }
 
 impl Space<'_> {
@@ -43,13 +45,13 @@ impl Space<'_> {
     pub(crate) fn run_at(&self, point: usize) -> Run {
         match self.via(point) {
             Some((node, edge)) => self.run_to(node, edge),
-            None => Run::default(),
+            None => self.run_along(&[]),
         }
     }
 
     /// Returns the run along edges, the first of which begins at a state.
     pub(crate) fn run_along(&self, path: &[usize]) -> Run {
-        let mut run = Run::default();
+        let mut run = Run { period: self.assumptions.period, ..Run::default() };
         let mut step: Option<Step> = None;
         for &edge in path {
             let it = step.get_or_insert_with(|| Step {

@@ -193,18 +193,16 @@ fn counted(m: &mut Machine, node: usize, number: &Number, more: Answer, it: Answ
 fn enter_gate(m: &mut Machine, node: usize, gate: Gate) -> Step {
     if !m.is_active(node) {
         m.set(node, 0, 1);
-        m.dates[node] = m.now;
+        m.begin_period(node);
     }
     m.put_status(node, Status::Running);
     let running = m.status(m.child(node, 0)) == Status::Running;
     if m.get(node, 0) == 0 && !running {
         let Gate::Rate { hertz } = gate else { return Ok(Move::Ask) };
-        if m.clock.is_none() {
-            return Ok(Move::Ask);
-        }
-        let seconds = (m.now - m.dates[node]) as f64 / 1_000.0;
-        if seconds < 1.0 / hertz {
-            return answer(Answer::Running);
+        match m.over(node, hertz) {
+            None => return Ok(Move::Ask),
+            Some(false) => return answer(Answer::Running),
+            Some(true) => {}
         }
     }
     m.set(node, 0, 0);
@@ -285,7 +283,7 @@ pub(super) fn answered(m: &mut Machine, node: usize, kind: &Kind, it: Answer) ->
         Kind::Gate(_) => {
             m.set(node, 0, 0);
             if it == Answer::Success {
-                m.dates[node] = m.now;
+                m.begin_period(node);
             }
             answer(it)
         }
