@@ -9,12 +9,13 @@ pub(crate) fn screen(answer: &VerifyAnswer, width: usize) -> String {
     let said = |text: &Option<String>| visible(text.as_deref().unwrap_or_default());
     if answer.verified {
         let verdict = answer.verdict.unwrap_or_default();
-        let about = match &answer.tree {
-            Some(tree) => format!("tree {}", visible(tree)),
-            None => format!("net {}", said(&answer.net)),
+        // A certificate of a tree answers several questions.
+        let (about, has) = match &answer.tree {
+            Some(tree) => (format!("tree {}", visible(tree)), ":"),
+            None => (format!("net {}", said(&answer.net)), " is"),
         };
         let net = wrapped(&about, width, "  ");
-        let claim = wrapped(&format!("{} is {verdict}", said(&answer.question)), width, "  ");
+        let claim = wrapped(&format!("{}{has} {verdict}", said(&answer.question)), width, "  ");
         let by = wrapped(&format!("by {}", said(&answer.evidence)), width, "  ");
         return format!("{GOOD}verified{GOOD:#}\n{net}{claim}{by}");
     }

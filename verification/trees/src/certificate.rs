@@ -155,11 +155,6 @@ impl Certificate {
         };
         let loaded = read(&self.model, &mut from, &options);
         let tree = loaded.map_err(|it| ("files", it.to_string()))?.tree;
-        let made = |it: &crate::tree::Node| matches!(it.kind, Kind::SetBlackboard { .. });
-        if tree.nodes.iter().any(made) {
-            let why = "SetBlackboard remembers more than a state holds";
-            return Err(("files", why.to_owned()));
-        }
         let assumptions = self.assume.iter().map(|it| parse_assumption(&tree, it));
         let assumptions =
             assumptions.collect::<Result<Vec<_>, _>>().map_err(|it| ("assume", it))?;

@@ -10,6 +10,9 @@ use std::rc::Rc;
 pub(crate) const ABSENT: u32 = 0;
 /// The entry exists, and has no value.
 pub(crate) const EMPTY: u32 = 1;
+/// A bit beside the number of a value: `SetBlackboard` made the entry, which holds texts from then
+/// on, until it is unset.
+const MADE: u32 = 1 << 31;
 
 /// Numbers of entries and values: they are given in the order of appearance and never change.
 #[derive(Clone, Debug)]
@@ -22,8 +25,6 @@ pub(crate) struct Store {
     known: BTreeMap<(u8, u64, Rc<str>), u32>,
     /// Nodes that ask whether an entry was written.
     watchers: Vec<(usize, String)>,
-    /// Entries that `SetBlackboard` made: texts from then on.
-    texts: Vec<u32>,
 }
 
 impl Store {
@@ -42,7 +43,6 @@ impl Store {
             values: Vec::new(),
             known: BTreeMap::new(),
             watchers,
-            texts: Vec::new(),
         }
     }
 
@@ -101,6 +101,16 @@ impl Machine<'_> {
         number.is_some_and(|&it| self.entries.get(it as usize).is_some_and(|it| *it != ABSENT))
     }
 
+    /// Returns the number of the value of an entry.
+    fn held(&self, number: usize) -> u32 {
+        self.entries[number] & !MADE
+    }
+
+    /// Gives an entry the number of a value.
+    fn hold(&mut self, number: usize, value: u32) {
+        self.entries[number] = value | self.entries[number] & MADE;
+    }
+
     /// Returns the number of the entry that a name means on a board.
     pub(crate) fn entry(&mut self, board: usize, key: &str) -> usize {
         let tree = self.tree;
@@ -127,7 +137,7 @@ impl Machine<'_> {
     /// Returns the value of an entry, as the node of this board sees it.
     pub(crate) fn read(&mut self, board: usize, key: &str) -> Option<Value> {
         let number = self.entry(board, key);
-        self.store.of_number(self.entries[number]).cloned()
+        self.store.of_number(self.held(number)).cloned()
     }
 
     pub(crate) fn has(&mut self, board: usize, key: &str) -> bool {
@@ -138,7 +148,8 @@ impl Machine<'_> {
     /// Writes an entry, whatever it held.
     pub(crate) fn put(&mut self, board: usize, key: &str, value: &Value) {
         let number = self.entry(board, key);
-        self.entries[number] = self.store.value(value);
+        let value = self.store.value(value);
+        self.hold(number, value);
         self.touch(number);
     }
 
@@ -204,11 +215,9 @@ impl Machine<'_> {
         };
         let number = self.entry(board, &target);
         if let Value::Text(text) = new.clone() {
-            let made = self.store.texts.contains(&(number as u32));
+            let made = self.entries[number] & MADE != 0;
             if self.entries[number] == ABSENT && matches!(value, Port::Constant(_)) {
-                if !made {
-                    self.store.texts.push(number as u32);
-                }
+                self.entries[number] = EMPTY | MADE;
             } else if !made {
                 use crate::tree::EntryType::{Integer, Real, Text, Truth};
                 let home = self.store.entries[number].clone();
@@ -250,7 +259,7 @@ impl Machine<'_> {
         let mut all: Vec<String> = Vec::new();
         for (board, numbers) in self.store.numbers.iter().enumerate() {
             for (key, &number) in numbers {
-                let value = match self.entries.get(number as usize).copied() {
+                let value = match self.entries.get(number as usize).map(|it| it & !MADE) {
                     None | Some(ABSENT) => continue,
                     Some(number) => self.store.of_number(number),
                 };
@@ -272,7 +281,7 @@ pub(super) struct OnBoard<'m, 't> {
 impl Entries for OnBoard<'_, '_> {
     fn read(&mut self, name: &str) -> Result<Value, ScriptError> {
         let number = self.machine.entry(self.board, name);
-        match self.machine.entries[number] {
+        match self.machine.held(number) {
             ABSENT => Err(ScriptError(format!("entry {name} does not exist"))),
             EMPTY => Err(ScriptError(format!("entry {name} has no value"))),
             value => {
@@ -297,9 +306,10 @@ impl Entries for OnBoard<'_, '_> {
 
     fn write(&mut self, name: &str, how: Assign, value: Value) -> Result<Value, ScriptError> {
         let number = self.machine.entry(self.board, name);
-        let old = self.machine.store.of_number(self.machine.entries[number]).cloned();
+        let old = self.machine.store.of_number(self.machine.held(number)).cloned();
         let value = stored(old.as_ref(), how, value)?;
-        self.machine.entries[number] = self.machine.store.value(&value);
+        let value_number = self.machine.store.value(&value);
+        self.machine.hold(number, value_number);
         self.machine.touch(number);
         Ok(value)
     }
