@@ -134,11 +134,13 @@ fn bid(scenario: &Scenario, (robot, task): (usize, usize), spec: &RoleSpec) -> B
         }
         Err(Lack::Away) => row.why_not = Some("it joins later"),
         Err(Lack::Way) => row.why_not = Some("no way leads there"),
+        Err(Lack::Charge) => row.why_not = Some("its battery is too low for this and the way home"),
         Err(Lack::Cost) => row.why_not = Some("the cost is more than a bid can say"),
         Ok(it) => {
             let counts = BidPartsRow {
                 ways_mm: it.parts.ways_mm,
                 drives_ms: it.parts.drives_ms,
+                delays_ms: it.parts.delays_ms,
                 rounds_ms: it.parts.rounds_ms,
                 take_ms: it.parts.take_ms,
                 give_ms: it.parts.give_ms,

@@ -36,6 +36,7 @@ use store::Store;
 mod asked;
 mod compared;
 mod derived;
+mod indicators;
 mod junit;
 mod lines;
 mod merge;
@@ -79,7 +80,11 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
     let measured = args.measured.as_deref();
     let measured = measurement::of_run(measured, &mission, policy.fidelity)?;
     let margins = held_back(args, &mission)?;
+    let held = indicators::Held { measured: measured.clone(), margins: margins.clone() };
     let campaign = ready(&mission, policy, settings, (measured, margins.clone()))?;
+    if let Some(path) = &args.indicators {
+        indicators::may_be_written(path, &campaign)?;
+    }
     let shard = args.shard.unwrap_or(Shard::ALL);
     let texts = (mission.source(), mission.text());
     let usual = args.policy().policy(mission.is_supervised(), STEPS);
@@ -89,7 +94,11 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
     let floor = mission.way.as_ref().map(FloorText::of);
     let fidelity = policy.fidelity;
     let header = Header { planner, robot, floor, fidelity, ..header };
-    conduct(args, &header, &campaign, margins.as_deref(), screen)
+    let exit = conduct(args, &header, &campaign, margins.as_deref(), screen)?;
+    if let Some(path) = &args.indicators {
+        indicators::write(path, (&mission, &campaign), &held, screen)?;
+    }
+    Ok(exit)
 }
 
 /// Runs a campaign over a team.
@@ -100,6 +109,7 @@ fn of_team(args: &CampaignArgs, team: &Chosen, screen: &Screen) -> Result<Exit, 
         ("--measured", args.measured.is_some()),
         ("--margins", args.margins.is_some()),
         ("--activities", args.activities.is_some()),
+        ("--indicators", args.indicators.is_some()),
         ("--policy", args.policy.is_some()),
         ("--objective", args.objective.is_some()),
         ("--allocator", args.allocator.is_some()),

@@ -65,9 +65,9 @@ pub(crate) struct TeamRun {
     pub(crate) reopened: u64,
     /// Robots that cannot work any more.
     pub(crate) robots_out: u64,
-    /// Messages sent, by their kind.
     /// How often a robot took over from an auctioneer that was silent.
     pub(crate) takeovers: u64,
+    /// Messages sent, by their kind.
     pub(crate) messages: BTreeMap<&'static str, u64>,
     pub(crate) messages_lost: u64,
     /// The performance of the team (2.7): of the utility of all tasks what is left when the time of
@@ -76,6 +76,8 @@ pub(crate) struct TeamRun {
     pub(crate) performance_permille: Option<i64>,
     /// Uses of skills that failed: an action was repeated, or its task given back.
     pub(crate) failed_uses: u64,
+    /// Number of times that a robot was charged.
+    pub(crate) charges: u32,
     /// Skills that may fail or are counted, with their uses in the run.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) skills: Vec<SkillRow>,

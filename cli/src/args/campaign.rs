@@ -83,6 +83,10 @@ pub(crate) struct CampaignArgs {
     /// 100000 runs
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["compare", "out", "shard"])]
     pub(crate) activities: Option<PathBuf>,
+    /// Writes ten indicators of each run in the plane, two rows a second one run after the other,
+    /// as CSV with the columns of `cotama risk observe`; of at most 1000 runs
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["compare", "out", "shard"])]
+    pub(crate) indicators: Option<PathBuf>,
     /// Objective of the plan, as in `cotama run`: the paper's rule, the most quality, or the least
     /// energy [default: that of the mission file, else quality]
     #[arg(long, value_name = "WHAT", conflicts_with = "compare")]

@@ -126,8 +126,13 @@ fn bids(plan: &BidPlanRow, parts: u32, width: usize) -> String {
         let _ = write!(text, ", of which {} ms are what it yields less", whole(plan.extra_ms));
     }
     text.push('\n');
-    let head = ["", "robot", "bid in ms", "ways", "drives", "rounds", "take", "give", "failures"];
-    let mut table = Table::new(vec![head.map(Cell::faint).to_vec()]).left(1);
+    // Teams without crowded ways need no column of delays.
+    let mut counted = plan.roles.iter().flat_map(|it| &it.bids).filter_map(|it| it.counts.as_ref());
+    let crowded = counted.any(|it| it.delays_ms != [0; 2]);
+    let mut head = vec!["", "robot", "bid in ms", "ways", "drives"];
+    head.extend(crowded.then_some("delays"));
+    head.extend(["rounds", "take", "give", "failures"]);
+    let mut table = Table::new(vec![head.into_iter().map(Cell::faint).collect()]).left(1);
     let mut told = String::new();
     for (place, role) in plan.roles.iter().enumerate() {
         let winner = plan.best.as_ref().and_then(|it| it.robots.get(place));
@@ -151,6 +156,9 @@ fn bids(plan: &BidPlanRow, parts: u32, width: usize) -> String {
             row.push(Cell::plain(whole(bid)));
             row.push(Cell::plain(own.ways_mm.map(metres).join(" + ")));
             row.push(Cell::plain(own.drives_ms.map(whole).join(" + ")));
+            if crowded {
+                row.push(Cell::plain(own.delays_ms.map(whole).join(" + ")));
+            }
             row.extend(numbers.map(|it| Cell::plain(whole(it))));
             table.row(row);
             if it.success_permille.is_some_and(|it| it < 1_000) {

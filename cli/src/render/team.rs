@@ -74,7 +74,7 @@ fn headline(answer: &TeamAnswer, run: &TeamRun) -> String {
     let rows = [
         ("a task takes", seconds(run.mean_time_ms), "on average, from when it is known"),
         ("robots worked", seconds(run.robot_time_ms), "all together"),
-        ("energy", milli(i128::from(run.energy_mj / 1_000), 1, " kJ"), "drawn until the end"),
+        ("energy", kilojoules(run.energy_mj), "drawn until the end"),
         ("auctions", run.auctions.to_string(), ""),
         ("awards", run.awards.len().to_string(), ""),
         ("put up again", run.reopened.to_string(), "given back, or the robot was silent"),
@@ -95,7 +95,9 @@ fn headline(answer: &TeamAnswer, run: &TeamRun) -> String {
         let words = "the next robot gives tasks out, as who did was silent";
         ("taken over", run.takeovers.to_string(), words)
     });
-    let more = taken_over.into_iter().chain(failed).chain(performance);
+    let charged = (run.charges > 0)
+        .then(|| ("charged", run.charges.to_string(), "times that a robot was at its charger"));
+    let more = charged.into_iter().chain(taken_over).chain(failed).chain(performance);
     let mut table = Table::new(vec![]).left(2);
     for (name, value, words) in rows.into_iter().chain(more) {
         table.row(vec![Cell::plain(name), Cell::plain(value), Cell::faint(words)]);
@@ -159,6 +161,17 @@ fn happened(answer: &TeamAnswer, trace: &Trace, width: usize) -> String {
                 let what = "is silent; its award has run out".to_owned();
                 (*t_ms, trace.robot(*robot).to_owned(), trace.task(*task), what, NOTICE)
             }
+            Record::GoesHome { t_ms, robot, charge_mj } if small => {
+                let what = format!("drives home with {}", kilojoules(*charge_mj));
+                (*t_ms, trace.robot(*robot).to_owned(), "", what, PLAIN)
+            }
+            Record::Charged { t_ms, robot } if small => {
+                (*t_ms, trace.robot(*robot).to_owned(), "", "is charged".to_owned(), PLAIN)
+            }
+            Record::Empty { t_ms, robot } => {
+                let what = "its battery is empty".to_owned();
+                (*t_ms, trace.robot(*robot).to_owned(), "", what, BAD)
+            }
             Record::TakesOver { t_ms, robot, copied } => {
                 let what = takes_over(*copied);
                 (*t_ms, trace.robot(*robot).to_owned(), "", what.to_owned(), NOTICE)
@@ -188,6 +201,10 @@ fn happened(answer: &TeamAnswer, trace: &Trace, width: usize) -> String {
         let _ = writeln!(text, "  {FAINT}and {} more: see the report{FAINT:#}", rows.len() - SHOWN);
     }
     text
+}
+
+fn kilojoules(energy_mj: u64) -> String {
+    milli(i128::from(energy_mj / 1_000), 1, " kJ")
 }
 
 const fn takes_over(copied: bool) -> &'static str {

@@ -362,6 +362,7 @@ fn of(trace: &Trace) -> TeamRun {
             .collect(),
         messages_lost: run.lost,
         failed_uses: u64::from(run.failed_uses),
+        charges: run.charges,
         skills: run.skills.iter().map(|it| skill(trace, it)).collect(),
         performance_permille: performance(trace, run.cost_ms),
         awards: Vec::new(),

@@ -7,7 +7,7 @@ use std::fmt::Write;
 const SERVICE: &str = include_str!("../../teams/service.toml");
 
 /// One text of the service, and another in its place.
-const BROKEN: [(&str, &str); 56] = [
+const BROKEN: [(&str, &str); 67] = [
     ("cotama-team/1", "cotama-team/2"),
     ("format = \"cotama-team/1\"\n", ""),
     ("name = \"service\"\n", ""),
@@ -64,6 +64,24 @@ const BROKEN: [(&str, &str); 56] = [
     ("shifts = \"serve\"", "shifts = \"serv\""),
     ("hides = [\"grasp-2f\"]", "hides = [\"grasp-2\"]"),
     ("mode = \"EST1\"", "mode = \"EST\""),
+    ("length_mm = 6000", "length_mm = 6000\ndelays_ms = []"),
+    ("length_mm = 6000", "length_mm = 6000\ndelays_ms = [0, -5]"),
+    ("length_mm = 6000", "length_mm = 6000\nseen_ms = [5]"),
+    (
+        "length_mm = 6000",
+        "length_mm = 6000\ndelays_ms = [5]\n[[floor.way]]\nbetween = [\"kitchen\", \"hall\"]\n\
+         length_mm = 6000\ndelays_ms = [5]",
+    ),
+    ("length_mm = 6000", "length_mm = 6000\ndelay_ms = [5]"),
+    ("second_best = true", "travel = \"median\""),
+    ("second_best = true", "travel = \"mean\"\ntravel_permille = 900"),
+    ("name = \"Eddie\"\n", "name = \"Eddie\"\nbattery = { home = \"hall\" }\n"),
+    ("name = \"Eddie\"\n", "name = \"Eddie\"\nbattery = { home = \"hal\", charger_w = 90 }\n"),
+    ("name = \"Eddie\"\n", "name = \"Eddie\"\nbattery = { home = \"hall\", charger_w = 1 }\n"),
+    (
+        "name = \"Eddie\"\n",
+        "name = \"Eddie\"\nbattery = { home = \"hall\", charger_w = 90, charge_permille = 0 }\n",
+    ),
 ];
 
 #[test]

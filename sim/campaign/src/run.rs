@@ -208,16 +208,28 @@ impl<'m> Campaign<'m> {
 
     /// The runs of a block, in their order.
     pub fn block(&self, block: u64) -> Vec<Line> {
+        let runs = self.runs_of(block);
+        runs.into_iter().map(|(run, plan, observed)| self.line(run, &plan, observed)).collect()
+    }
+
+    /// Returns the plans of all runs, in their order. Missions are run again, as a strategy may
+    /// learn of them.
+    pub fn drawn(&self) -> Vec<Plan> {
+        let blocks = Shard::ALL.blocks(self.settings.runs);
+        blocks.flat_map(|it| self.runs_of(it)).map(|it| it.1).collect()
+    }
+
+    fn runs_of(&self, block: u64) -> Vec<(u64, Plan, Observed)> {
         let first = block.saturating_mul(BLOCK);
         let count = self.settings.runs.saturating_sub(first).min(BLOCK);
         let mut draws = self.strategy.block(&self.space, self.settings.seed, first);
-        let lines = (first..first + count).map(|run| {
+        let runs = (first..first + count).map(|run| {
             let plan = draws.next();
             let observed = self.subject.run(&plan);
             draws.learn(&observed, self.distance(&observed));
-            self.line(run, &plan, observed)
+            (run, plan, observed)
         });
-        lines.collect()
+        runs.collect()
     }
 
     /// The least distance of a run from breaking a requirement.

@@ -119,7 +119,9 @@ fn gantt(page: &mut String, trace: &Trace, all: &[Vec<Bar>], has_cursor: bool) {
     page.push_str(&lanes(trace, all, WIDE, has_cursor));
     page.push_str(&lanes(trace, all, NARROW, has_cursor));
     page.push_str("<figcaption class=\"keys\">");
-    for (class, words) in COLOURS {
+    let own = [("f1", "drives home"), ("f4", "is charged")];
+    let own = own.into_iter().filter(|it| all.iter().flatten().any(|bar| bar.class == it.0));
+    for (class, words) in COLOURS.into_iter().chain(own) {
         let _ =
             write!(page, "<span class=\"key\"><i class=\"swatch tint {class}\"></i>{words}</span>");
     }
@@ -272,6 +274,9 @@ fn wrong(page: &mut String, trace: &Trace) {
             }
             Record::Reopened { t_ms, task } => {
                 (*t_ms, "", trace.task(*task).to_owned(), "is put up again".to_owned())
+            }
+            Record::Empty { t_ms, robot } => {
+                (*t_ms, trace.robot(*robot), String::new(), "its battery is empty".to_owned())
             }
             Record::TakesOver { t_ms, robot, copied } => {
                 let what = if *copied {

@@ -8,18 +8,19 @@
 //! to the same.
 
 mod moving;
+mod says;
 mod supervisors;
 #[cfg(test)]
 mod tests;
 
-use crate::robots::failing::{mode, moves};
+use crate::robots::failing::moves;
 use crate::robots::operator::PATIENCE;
 use cotama_core::net::TransitionId;
 use cotama_core::player::{Firing, Names, Observer};
 use cotama_core::system::Of;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::level::{Act, Cause, Hidden};
-use cotama_models::robots::{Global, Mode, Robot, RobotFile, Told, Where, members};
+use cotama_models::robots::{Global, Robot, RobotFile, Told, Where, members};
 use cotama_models::team::scenario::{self, Row, Stage};
 use moving::{Moving, Orders};
 use std::collections::VecDeque;
@@ -55,6 +56,8 @@ pub(super) struct Driver {
     wanted: bool,
     /// The length of both drives.
     legs: [Millimetres; 2],
+    /// For how long people stand in the way of both drives, in ms; 0 once they have.
+    holds_ms: [u64; 2],
     /// Nothing happened in the last round, or before it.
     calm: bool,
     /// Every round is taken: for the test that the others change nothing.
@@ -76,6 +79,7 @@ impl Driver {
             told: Vec::new(),
             wanted: false,
             legs: [Millimetres(0); 2],
+            holds_ms: [0; 2],
             calm: true,
             every_round,
         }
@@ -90,10 +94,12 @@ impl Driver {
         self.kind.period()
     }
 
-    /// A task begins: two drives of these lengths.
-    pub(super) fn begin(&mut self, now: u64, legs_mm: [u64; 2]) {
+    /// A task begins: two drives of these lengths, each after people have stood in its way for so
+    /// long, in ms.
+    pub(super) fn begin(&mut self, now: u64, legs_mm: [u64; 2], holds_ms: [u64; 2]) {
         self.forget(now);
         (self.wanted, self.legs) = (true, legs_mm.map(Millimetres));
+        self.holds_ms = holds_ms;
     }
 
     /// The task is over or was given up: the robot stands where it [comes to
@@ -106,6 +112,7 @@ impl Driver {
         self.moving.drive.restart();
         self.moving.drive.stand();
         (self.wanted, self.calm) = (false, false);
+        (self.holds_ms, self.moving.held_until) = ([0; 2], 0);
     }
 
     /// Whether its supervisors have stopped it for good.
@@ -163,6 +170,14 @@ impl Driver {
     /// Whether its laptop is up.
     pub(super) fn thinks(&self) -> bool {
         self.moving.thinks()
+    }
+
+    /// The battery is empty: nothing of the robot works any more.
+    pub(super) fn runs_empty(&mut self, now: u64) {
+        self.go(now);
+        self.moving.drive.stand();
+        self.moving.empty = true;
+        self.calm = false;
     }
 
     /// Energy used so far, in mJ.
@@ -346,8 +361,18 @@ impl Driver {
         if before.is_left_for(place) {
             self.place_since = now;
         }
+        self.meets_people(now);
         let Where::Runs { configuration, .. } = place else { return None };
         self.robot().configurations.get(configuration).map(|it| it.name.as_str())
+    }
+
+    /// A drive that may begin is held for as long as people stand in its way.
+    fn meets_people(&mut self, now: u64) {
+        if self.is_driving() && moves(self.robot(), self.place) {
+            let leg = usize::from(self.global != Global::Does(0));
+            let held = std::mem::take(&mut self.holds_ms[leg]);
+            self.moving.held_until = self.moving.held_until.max(now.saturating_add(held));
+        }
     }
 
     /// When the next round counts; none while nothing happens by itself.
@@ -385,41 +410,6 @@ impl Driver {
                 takes.map(|it| self.place_since + it)
             }
             Where::Runs { .. } | Where::Rests => None,
-        }
-    }
-
-    /// Returns the word of the mission, of the planner of paths, or of time.
-    fn says(&mut self, now: u64, done: bool) -> Option<Told> {
-        let stands = self.moving.drive.speed().0 == 0;
-        match self.global {
-            Global::Waits => self.wanted.then_some(Told::Begins),
-            Global::Does(_) if self.is_driving() => self.drive_says(now),
-            Global::Does(it) => done.then_some(Told::Over(it)),
-            Global::Secures => stands.then_some(Told::Stopped),
-            Global::Done | Global::Safe => None,
-        }
-    }
-
-    fn drive_says(&mut self, now: u64) -> Option<Told> {
-        let waited = now.saturating_sub(self.place_since);
-        match self.place {
-            Where::Rests => None,
-            // Nobody answers in a team.
-            Where::Waits => (waited > PATIENCE.0).then(|| {
-                self.place_since = now;
-                Told::GivesUp
-            }),
-            Where::Runs { sub_objective, configuration } => {
-                let own = mode(self.robot(), self.place) == Some(Mode::Autonomous);
-                let takes = self.robot().configurations.get(configuration);
-                let takes = takes.map_or(0, |it| it.takes.0);
-                let reached = if moves(self.robot(), self.place) {
-                    self.moving.drive.x() >= self.leg() && self.moving.drive.speed().0 == 0
-                } else {
-                    waited >= takes
-                };
-                (own && reached).then_some(Told::Reached(sub_objective))
-            }
         }
     }
 }

@@ -57,6 +57,7 @@ pub mod floors;
 mod ledger;
 mod message;
 mod network;
+mod passages;
 pub mod record;
 pub mod scenarios;
 mod skills;

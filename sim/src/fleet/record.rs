@@ -189,6 +189,29 @@ pub enum Record {
         /// Whether it had a copy of what the auctioneer before knew.
         copied: bool,
     },
+    /// A free robot drives home to be charged, or is there.
+    GoesHome {
+        /// When, in ms.
+        t_ms: u64,
+        /// The robot.
+        robot: usize,
+        /// The energy that is left, in mJ.
+        charge_mj: u64,
+    },
+    /// The battery of a robot is full.
+    Charged {
+        /// When, in ms.
+        t_ms: u64,
+        /// The robot.
+        robot: usize,
+    },
+    /// The battery of a robot is empty: nothing of it works any more.
+    Empty {
+        /// When, in ms.
+        t_ms: u64,
+        /// The robot.
+        robot: usize,
+    },
     /// All tasks have ended: the numbers of the run.
     End(Box<Run>),
 }
@@ -212,6 +235,9 @@ impl Line for Record {
             | Self::Reopened { t_ms, .. }
             | Self::Done { t_ms, .. }
             | Self::TakesOver { t_ms, .. }
+            | Self::GoesHome { t_ms, .. }
+            | Self::Charged { t_ms, .. }
+            | Self::Empty { t_ms, .. }
             | Self::Reported { t_ms, .. } => *t_ms,
             Self::End(_) => u64::MAX,
         }
@@ -279,6 +305,9 @@ pub struct Run {
     pub end_ms: u64,
     /// Robots that cannot work any more.
     pub out: usize,
+    /// Number of times that a battery was charged.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub charges: u32,
     /// Uses of skills that failed.
     #[serde(default, skip_serializing_if = "is_none")]
     pub failed_uses: u32,

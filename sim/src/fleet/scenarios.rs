@@ -8,7 +8,7 @@ use cotama_models::team::scenario;
 use cotama_models::team::scenario::{
     FailureRates, Fault, FaultKind, FaultTime, Floor, Formation, Give, MAX_ROBOTS, Method, Needs,
     Place, PlanSpec, Quality, RobotSpec, RoleSpec, Row, Scenario, Seat, Stay, Take, TaskSpec,
-    Trust, usual,
+    Travel, Trust, usual,
 };
 use cotama_models::team::service::{DETECT, GRASP_2F, MOVE};
 use cotama_models::team::{Capability, CapabilitySet, Reliability, Skill};
@@ -132,12 +132,14 @@ pub fn fleet(options: &FleetOptions) -> Scenario {
             fails: FailureRates::NONE.with(GRASP_2F, rate),
             start: Place(number * 7 % (2 * NODES)),
             stay: Stay::default(),
+            supply: None,
         }
     };
     Scenario {
         name: "fleet".into(),
         skills: skills(),
         floor,
+        crowds: Vec::new(),
         robots: (0..robots).map(robot).collect(),
         tasks: tasks.collect(),
         faults: faults(options, robots, horizon, streams),
@@ -148,6 +150,7 @@ pub fn fleet(options: &FleetOptions) -> Scenario {
         slack_permille: 1_000,
         second_best: false,
         trust: Trust::default(),
+        travel: Travel::Plain,
         seed: options.seed,
     }
 }
@@ -355,11 +358,13 @@ pub fn worst(case: Worst, robots: usize) -> Scenario {
         fails: FailureRates::NONE,
         start: Place(0),
         stay: Stay::default(),
+        supply: None,
     };
     Scenario {
         name: "worst case of a round".into(),
         skills: skills(),
         floor: Floor::new(&names, &ways),
+        crowds: Vec::new(),
         robots: (0..robots).map(robot).collect(),
         tasks,
         faults: Vec::new(),
@@ -373,6 +378,7 @@ pub fn worst(case: Worst, robots: usize) -> Scenario {
         slack_permille: 1_000,
         second_best: false,
         trust: Trust::default(),
+        travel: Travel::Plain,
         seed: 0,
     }
 }

@@ -2,6 +2,8 @@
 
 mod skills;
 mod succession;
+mod supply;
+mod travel;
 
 use super::allocate::Allocator;
 use super::record::{Fate, Record, Run};

@@ -125,6 +125,8 @@ pub(crate) struct BidPartsRow {
     pub(crate) ways_mm: [u64; 2],
     /// Times of these drives, planning before each included.
     pub(crate) drives_ms: [u64; 2],
+    /// Delays of these drives on crowded ways, as bids take them to be.
+    pub(crate) delays_ms: [u64; 2],
     /// Time of the decisional component between the parts of the task.
     pub(crate) rounds_ms: u64,
     pub(crate) take_ms: u64,

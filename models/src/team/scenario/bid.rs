@@ -26,6 +26,8 @@ pub struct Outlook<'a> {
     pub ends: [Spot; 2],
     /// Whether it has the object on board, and need not take it.
     pub holds: bool,
+    /// The delays that it knows of each crowded way, in ms.
+    pub seen: &'a [Vec<u64>],
 }
 
 impl Outlook<'_> {
@@ -42,6 +44,8 @@ pub struct Parts {
     pub ways_mm: [u64; 2],
     /// The times of these drives, in ms, the planning before each included.
     pub drives_ms: [u64; 2],
+    /// The delays of these drives on crowded ways, in ms, as bids take them to be.
+    pub delays_ms: [u64; 2],
     /// Time of the rounds of the decisional component, in ms.
     pub rounds_ms: u64,
     /// How long it takes to take the object, in ms; 0 where it has it on board.
@@ -53,8 +57,8 @@ pub struct Parts {
 impl Parts {
     /// Returns the costs of drives and hands in their order, in ms.
     pub fn costs(&self) -> [u64; 4] {
-        let [first, second] = self.drives_ms;
-        [first.saturating_add(self.rounds_ms), self.take_ms, second, self.give_ms]
+        let drive = |it: usize| self.drives_ms[it].saturating_add(self.delays_ms[it]);
+        [drive(0).saturating_add(self.rounds_ms), self.take_ms, drive(1), self.give_ms]
     }
 
     /// Returns the whole time, in ms.
@@ -182,11 +186,12 @@ impl Scenario {
 
     /// Returns the ways and times of a role for a robot; `None` where no way leads there.
     pub(super) fn parts(&self, role: &RoleSpec, outlook: &Outlook<'_>) -> Option<Parts> {
-        let Outlook { robot, from, pace, ends: [takes, gives], holds, .. } = *outlook;
+        let Outlook { robot, from, pace, ends: [takes, gives], holds, seen, .. } = *outlook;
         let ways_mm = [self.floor.distance(from, takes)?, self.floor.distance(takes, gives)?];
         Some(Parts {
             ways_mm,
             drives_ms: ways_mm.map(|it| robot.drive_ms(it, pace)),
+            delays_ms: self.delays([(from, takes), (takes, gives)], seen),
             rounds_ms: ROUNDS,
             take_ms: if holds { 0 } else { role.take_ms },
             give_ms: role.give_ms,
@@ -204,7 +209,10 @@ impl Scenario {
     /// assert!(bids[0].is_some() && bids[1..] == [None, None, None]); // Eddie alone speaks
     /// ```
     pub fn bid(&self, robot: usize, task: usize, role: &RoleSpec) -> Option<u32> {
-        self.at_start(robot, task, role, |outlook| Some(self.quote(role, outlook)?.cost_ms))?
+        self.at_start(robot, task, role, |outlook| {
+            let cost = self.quote(role, outlook)?.cost_ms;
+            self.is_charged_for(role, outlook).then_some(cost)
+        })?
     }
 
     /// Runs something on the part of a robot in a role at the start of a run; `None` where there is
@@ -220,6 +228,7 @@ impl Scenario {
         let object = self.tasks.get(task)?.start;
         let at = |place: Place| Spot::at(place);
         let skills = who.trusted(self.trust);
+        let seen = self.delays_seen();
         Some(act(&Outlook {
             robot: who,
             skills: &skills,
@@ -228,6 +237,7 @@ impl Scenario {
             pace: who.pace(0)?,
             ends: self.ends(task, role, at(object)),
             holds: false,
+            seen: &seen,
         }))
     }
 }

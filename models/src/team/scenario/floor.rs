@@ -112,9 +112,9 @@ impl On {
 
 /// A part of a drive along one way, in mm from its first place.
 #[derive(Clone, Copy, Debug)]
-struct Stretch {
-    from: Place,
-    to: Place,
+pub(super) struct Stretch {
+    pub(super) from: Place,
+    pub(super) to: Place,
     start: u64,
     end: u64,
 }
@@ -314,7 +314,7 @@ impl Floor {
     }
 
     /// The stretches of the shortest road; `None` where no way leads.
-    fn road(&self, from: Spot, to: Spot) -> Option<Vec<Stretch>> {
+    pub(super) fn road(&self, from: Spot, to: Spot) -> Option<Vec<Stretch>> {
         let whole = self.distance(from, to)?;
         let stretch = |end| Stretch { from: from.from, to: from.to, start: from.done_mm, end };
         if self.along(from, to) == Some(whole) {

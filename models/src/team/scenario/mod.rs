@@ -42,11 +42,13 @@
 
 mod bid;
 mod coalitions;
+mod crowd;
 mod floor;
 mod ground;
 mod reader;
 mod reasons;
 mod seat;
+mod supply;
 #[cfg(test)]
 mod tests;
 mod track;
@@ -56,13 +58,15 @@ mod writer;
 
 pub use bid::{Outlook, Parts, Quote, common_denominator};
 pub use coalitions::{Figures, Gate, MOST_COALITIONS, Passes, Pruning};
+pub use crowd::{Crowd, MOST_DELAYS, Travel};
 pub use floor::{Floor, On, Place, Spot};
 pub use ground::{Asked, MOST_PAIRED, MOST_PLANNED, Ways};
 pub use reader::{FAULTS, FaultsOfTeam};
 pub use reasons::{Contest, Counted, Lack, Offer, Reasons};
 pub use seat::{Seat, Stay};
+pub use supply::Supply;
 pub use trust::{FailureRates, Trust};
-pub use worker::{Row, SLOTS, USUAL, WORDS, drive_ms, pace, steps, usual};
+pub use worker::{Row, SLOTS, USUAL, WORDS, drive_ms, pace, power, steps, usual};
 
 use super::capability::{Capability, CapabilitySet, Robot, Skill};
 use super::constraint::Constraint;
@@ -93,6 +97,8 @@ pub struct RobotSpec {
     pub start: Place,
     /// When it is part of the team.
     pub stay: Stay,
+    /// Battery and way home; `None` where nobody counts the energy of the robot.
+    pub supply: Option<Supply>,
 }
 
 impl RobotSpec {
@@ -391,6 +397,8 @@ pub struct Scenario {
     pub skills: Vec<String>,
     /// Places and ways.
     pub floor: Floor,
+    /// The ways on which drives are delayed.
+    pub crowds: Vec<Crowd>,
     /// The robots; at most [`MAX_ROBOTS`].
     pub robots: Vec<RobotSpec>,
     /// The tasks.
@@ -411,6 +419,8 @@ pub struct Scenario {
     pub second_best: bool,
     /// What bids take the reliability of capabilities to be.
     pub trust: Trust,
+    /// What bids take delays on crowded ways to be.
+    pub travel: Travel,
     /// The seed of the random numbers of the network, and of uses that fail.
     pub seed: u64,
 }

@@ -7,7 +7,7 @@ mod task;
 
 use super::{
     FORMAT, Fault, FaultKind, FaultTime, Formation, MANY, MAX_ROBOTS, Method, Quality, Scenario,
-    Seat, Stage, Trust, Ways,
+    Seat, Stage, Travel, Trust, Ways,
 };
 use crate::missions::faults::Expected;
 use crate::missions::reader::fields::{Fields, Reported, Sink, document, document_of_either};
@@ -148,6 +148,7 @@ fn scenario(mut fields: Fields<'_>, ways: Option<&Ways>, mut files: Files<'_>) -
     }
     let network = network(fields.optional_table("network"));
     let floor = floor(&mut fields, ways, &mut names);
+    let (floor, crowds) = floor.map_or((None, Vec::new()), |it| (Some(it.0), it.1));
     // Where robots or tasks cannot be read no name of one is known, and nothing more is said.
     let robots = fields.tables_up_to("robot", true, MAX_ROBOTS);
     if robots.is_none() && fields.has("robot") {
@@ -167,11 +168,13 @@ fn scenario(mut fields: Fields<'_>, ways: Option<&Ways>, mut files: Files<'_>) -
     let faults = fields.tables_up_to("fault", false, MANY).unwrap_or_default();
     let faults: Vec<_> = faults.into_iter().map(|it| fault(it, &names)).collect();
     fields.finish();
-    let Auction { method, formation, auctioneer, slack_permille, second_best, trust } = auction?;
+    let Auction { method, formation, auctioneer, slack_permille, second_best, trust, travel } =
+        auction?;
     Some(Scenario {
         name: name?.value,
         skills: names.skills,
         floor: floor?,
+        crowds,
         robots: robots.into_iter().collect::<Option<_>>()?,
         tasks: tasks.into_iter().collect::<Option<_>>()?,
         faults: faults.into_iter().collect::<Option<_>>()?,
@@ -182,6 +185,7 @@ fn scenario(mut fields: Fields<'_>, ways: Option<&Ways>, mut files: Files<'_>) -
         slack_permille,
         second_best,
         trust,
+        travel,
         seed: 0,
     })
 }
@@ -239,6 +243,7 @@ struct Auction {
     slack_permille: u32,
     second_best: bool,
     trust: Trust,
+    travel: Travel,
 }
 
 impl Default for Auction {
@@ -250,6 +255,7 @@ impl Default for Auction {
             slack_permille: 1_000,
             second_best: false,
             trust: Trust::default(),
+            travel: Travel::default(),
         }
     }
 }
@@ -269,6 +275,7 @@ fn auction(fields: Result<Option<Fields<'_>>, Reported>, names: &Names) -> Optio
     let slack = fields.optional_integer("slack_permille", 0..=1_000_000);
     let second_best = fields.optional_flag("second_best");
     let trust = one_of(&mut fields, "trust", "trust", Trust::ALL.map(|it| (it.name(), it)));
+    let travel = travel(&mut fields);
     fields.finish();
     Some(Auction {
         method: method.ok()?.unwrap_or(usual.method),
@@ -281,7 +288,28 @@ fn auction(fields: Result<Option<Fields<'_>>, Reported>, names: &Names) -> Optio
         slack_permille: slack.ok()?.unwrap_or(usual.slack_permille),
         second_best: second_best.ok()?.unwrap_or(usual.second_best),
         trust: trust.ok()?.unwrap_or(usual.trust),
+        travel: travel.ok()?,
     })
+}
+
+/// What bids take delays to be: `travel`, and for a quantile `travel_permille`.
+fn travel(fields: &mut Fields<'_>) -> Result<Travel, Reported> {
+    let usual = Travel::Quantile(900);
+    let known = [("plain", Travel::Plain), ("mean", Travel::Mean), ("quantile", usual)];
+    let travel = one_of(fields, "travel", "travel", known);
+    if !fields.has("travel_permille") {
+        fields.knows("travel_permille");
+        return Ok(travel?.unwrap_or_default());
+    }
+    let permille = fields.optional_integer("travel_permille", 1..=1_000);
+    if let (Some(Travel::Quantile(_)), Some(permille)) = (travel?, permille?) {
+        return Ok(Travel::Quantile(permille));
+    }
+    let message = "`travel_permille` is of quantiles alone";
+    let help = "write `travel = \"quantile\"`, or leave `travel_permille` out";
+    let span = fields.span_of("travel_permille");
+    fields.report(Diagnostic::new(span, message, "of what quantile?").help(help));
+    Err(Reported)
 }
 
 /// A text out of a fixed set, which may be left out.

@@ -55,6 +55,8 @@ pub enum Lack {
     Cost,
     /// The robot joins the team later.
     Away,
+    /// Charge: its battery is too low for the role and the way home.
+    Charge,
 }
 
 /// A coalition that can do a task by one of its plans.
@@ -111,6 +113,9 @@ impl Scenario {
                 return Err(Lack::Skills(missing));
             }
             let parts = self.parts(role, outlook).ok_or(Lack::Way)?;
+            if !self.is_charged_for(role, outlook) {
+                return Err(Lack::Charge);
+            }
             let usable = outlook.usable();
             let counted = role.counted(&usable, parts.costs());
             let quote = self.quote(role, outlook);

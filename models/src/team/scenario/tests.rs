@@ -3,8 +3,9 @@
 mod made;
 
 use super::{
-    FailureRates, Fault, FaultKind, FaultTime, Formation, Give, Method, Needs, Place, PlanSpec,
-    RobotSpec, RoleSpec, Row, Scenario, Seat, Stage, Stay, Take, TaskSpec, Trust, service, usual,
+    Crowd, FailureRates, Fault, FaultKind, FaultTime, Formation, Give, Method, Needs, Place,
+    PlanSpec, RobotSpec, RoleSpec, Row, Scenario, Seat, Stage, Stay, Supply, Take, TaskSpec,
+    Travel, Trust, service, usual,
 };
 use crate::team::service::{BRING, FETCH, ORDER};
 use crate::team::{Capability, CapabilitySet, Reliability, Role, Skill};
@@ -184,19 +185,44 @@ fn scenario() -> impl Strategy<Value = Scenario> {
         0_u32..3_000,
         any::<bool>(),
         prop::sample::select(Trust::ALL.to_vec()),
+        prop_oneof![
+            Just(Travel::Plain),
+            Just(Travel::Mean),
+            (1_u16..=1_000).prop_map(Travel::Quantile),
+        ],
     );
     let stay = (0_u64..90, prop::option::of(1_u64..90))
         .prop_map(|(joins_ms, more)| Stay { joins_ms, leaves_ms: more.map(|it| joins_ms + it) });
-    let ways = (prop::collection::vec(1_u64..90_000, 3), prop::collection::vec(stay, 4));
+    let delays = || prop::collection::vec(0_u64..90_000, 1..4);
+    let crowd = prop::option::of((delays(), prop::option::of(delays())));
+    let supply = (1_u16..=1_000, 0_u16..=500, 0_usize..4, 20_u32..500);
+    let supply = prop::option::of(supply.prop_map(|it| Supply {
+        charge_permille: it.0,
+        reserve_permille: it.1,
+        home: Place(it.2),
+        charger_w: it.3,
+    }));
+    let ways = (
+        prop::collection::vec(1_u64..90_000, 3),
+        prop::collection::vec(stay, 4),
+        prop::collection::vec(crowd, 3),
+        prop::collection::vec(supply, 4),
+    );
     (skills, tasks, faults, auction, ways).prop_map(|(skills, tasks, faults, auction, more)| {
-        let (ways, stays) = more;
-        let (method, formation, auctioneer, slack_permille, second_best, trust) = auction;
+        let (ways, stays, crowds, supplies) = more;
+        let (method, formation, auctioneer, slack_permille, second_best, trust, travel) = auction;
         let ends = [(0, 1), (1, 2), (1, 3)];
+        let crowds = ends.iter().zip(crowds).filter_map(|(between, it)| {
+            let (delays_ms, seen_ms) = it?;
+            Some(Crowd { between: *between, delays_ms, seen_ms })
+        });
+        let crowds = crowds.collect();
         let ways: Vec<_> = ends.iter().zip(ways).map(|(it, mm)| (it.0, it.1, mm)).collect();
         Scenario {
             name: "a \"team\"".into(),
             skills: ["move", "hand", "claw"].map(str::to_owned).to_vec(),
             floor: super::Floor::new(&["a", "b b", "c", "ü"], &ways),
+            crowds,
             robots: (skills.into_iter().enumerate())
                 .map(|(number, (skills, rates))| RobotSpec {
                     name: format!("r{number}"),
@@ -205,6 +231,7 @@ fn scenario() -> impl Strategy<Value = Scenario> {
                     skills,
                     start: Place(number),
                     stay: stays[number],
+                    supply: supplies[number],
                 })
                 .collect(),
             tasks: vec![tasks.0, tasks.1],
@@ -216,6 +243,7 @@ fn scenario() -> impl Strategy<Value = Scenario> {
             slack_permille,
             second_best,
             trust,
+            travel,
             seed: 0,
         }
     })

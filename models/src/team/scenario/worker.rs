@@ -3,8 +3,9 @@
 
 use super::{RobotSpec, Scenario};
 use crate::robots::supervisors::{self, Step};
-use crate::robots::{Body, Mode, Robot, RobotFile};
+use crate::robots::{Body, Mode, Robot, RobotFile, members};
 use cotama_core::player::Packed;
+use cotama_core::units::Milliwatts;
 use std::sync::LazyLock;
 
 /// The most words of a marking of a robot's supervisors.
@@ -152,6 +153,30 @@ pub fn pace(robot: &Robot, lost: u32) -> Option<u64> {
         Some(if it.moves { slowest.min(best.speed.0) } else { slowest })
     });
     slowest.filter(|it| (1..u64::MAX).contains(it))
+}
+
+/// Returns the most power of the hardware of the configurations in which a robot drives by itself
+/// when nothing is lost, in mW.
+pub(super) fn hardware_power(robot: &Robot) -> u64 {
+    let own = robot.sub_objectives.iter().enumerate();
+    let own = own.filter(|it| it.1.mode == Mode::Autonomous && it.1.moves);
+    let best = own.filter_map(|it| robot.best(it.0, 0));
+    best.map(|it| power(robot, it).0).max().unwrap_or(0)
+}
+
+/// Returns the power of the hardware that a configuration uses.
+///
+/// ```
+/// use cotama_models::team::scenario::{power, usual};
+/// let file = usual();
+/// assert_eq!(power(file.robot(), usize::MAX).0, 0); // there is none of this number
+/// ```
+pub fn power(robot: &Robot, configuration: usize) -> Milliwatts {
+    let required = robot.configurations.get(configuration).map_or(0, |it| it.required);
+    let modules = members(required).filter_map(|it| robot.modules.get(it));
+    let used = modules.fold(0, |all, it| all | it.needs.hardware);
+    let used = members(used).filter_map(|it| robot.hardware.get(it));
+    Milliwatts(used.fold(0, |all, it| all.saturating_add(it.power.0)))
 }
 
 /// Returns how long a robot stands to plan before a drive, in ms.

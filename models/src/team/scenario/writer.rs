@@ -1,8 +1,8 @@
 //! Writing a team as a file.
 
 use super::{
-    FAULTS, FORMAT, Fault, FaultKind, FaultTime, Give, Needs, RoleSpec, Row, Scenario, Seat, Take,
-    TaskSpec, Trust, USUAL,
+    FAULTS, FORMAT, Fault, FaultKind, FaultTime, Give, Needs, RoleSpec, Row, Scenario, Seat,
+    Supply, Take, TaskSpec, Travel, Trust, USUAL,
 };
 use crate::team::{CapabilitySet, Reliability, Skill};
 use crate::toml_text::quoted;
@@ -85,6 +85,14 @@ impl Lines<'_> {
         if it.trust != Trust::default() {
             self.line("trust", quoted(it.trust.name()));
         }
+        match it.travel {
+            Travel::Plain => {}
+            Travel::Mean => self.line("travel", quoted("mean")),
+            Travel::Quantile(permille) => {
+                self.line("travel", quoted("quantile"));
+                self.line("travel_permille", permille);
+            }
+        }
         self.floor();
         for robot in &it.robots {
             self.head("[[robot]]");
@@ -101,6 +109,9 @@ impl Lines<'_> {
             }
             if let Some(leaves) = robot.stay.leaves_ms {
                 self.line("leaves_ms", leaves);
+            }
+            if let Some(supply) = &robot.supply {
+                self.supply(supply);
             }
         }
         it.tasks.iter().for_each(|it| self.task(it));
@@ -136,7 +147,23 @@ impl Lines<'_> {
             if floor.on().is_none_or(|it| !it.measures(a, b)) {
                 self.line("length_mm", length);
             }
+            let crowds = &self.scenario.crowds;
+            if let Some(crowd) = crowds.iter().find(|it| it.between == (a, b)) {
+                self.line("delays_ms", format!("{:?}", crowd.delays_ms));
+                if let Some(seen) = &crowd.seen_ms {
+                    self.line("seen_ms", format!("{seen:?}"));
+                }
+            }
         }
+    }
+
+    fn supply(&mut self, supply: &Supply) {
+        let Supply { charge_permille, reserve_permille, home, charger_w } = *supply;
+        let home = self.place(home);
+        let charge = format!("charge_permille = {charge_permille}");
+        let reserve = format!("reserve_permille = {reserve_permille}");
+        let rest = format!("home = {home}, charger_w = {charger_w}");
+        self.line("battery", format!("{{ {charge}, {reserve}, {rest} }}"));
     }
 
     /// A skill with its reliability, where that is not certain; as a table where uses fail.

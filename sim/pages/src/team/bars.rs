@@ -53,15 +53,25 @@ fn partner_comes(
 pub(super) fn bars(trace: &Trace, robot: usize, end_ms: u64) -> Vec<Bar> {
     let mut bars = Vec::new();
     let mut current: Option<(u64, Option<usize>, Stage)> = None;
+    // On its way home, or charged there.
+    let mut for_itself = false;
     let own = trace.records.iter().filter_map(|it| match it {
         Record::Stage { t_ms, robot: of, task, stage } if *of == robot => {
-            Some((*t_ms, *task, *stage))
+            Some(((*t_ms, *task, *stage), None))
+        }
+        Record::GoesHome { t_ms, robot: of, .. } if *of == robot => {
+            Some(((*t_ms, None, Stage::Rests), Some(true)))
+        }
+        Record::Charged { t_ms, robot: of } if *of == robot => {
+            Some(((*t_ms, None, Stage::Rests), Some(false)))
         }
         _ => None,
     });
-    for next in own.chain([(end_ms, None, Stage::Rests)]) {
+    for (next, turns) in own.chain([((end_ms, None, Stage::Rests), None)]) {
         if let Some((from, task, stage)) = current.filter(|it| it.0 < next.0) {
             let (class, does) = match stage {
+                Stage::ToTake if task.is_none() => ("f1", "drives home"),
+                Stage::Rests if for_itself => ("f4", "is charged"),
                 Stage::ToTake => ("f6", "drives to take"),
                 Stage::Takes => ("f5", "takes"),
                 Stage::ToGive => ("f0", "drives to give"),
@@ -69,6 +79,7 @@ pub(super) fn bars(trace: &Trace, robot: usize, end_ms: u64) -> Vec<Bar> {
                 Stage::Stops | Stage::Safe => ("gone", "is out of work"),
                 Stage::Rests | Stage::Done => {
                     current = Some(next);
+                    for_itself = turns.unwrap_or(for_itself);
                     continue;
                 }
             };
@@ -88,6 +99,7 @@ pub(super) fn bars(trace: &Trace, robot: usize, end_ms: u64) -> Vec<Bar> {
             }
         }
         current = Some(next);
+        for_itself = turns.unwrap_or(for_itself);
     }
     bars
 }

@@ -45,6 +45,10 @@ pub(super) struct Moving {
     pub(super) seen: Vec<usize>,
     /// Whether it has gone on evenly since that was last said.
     pub(super) even: bool,
+    /// People stand in its way until then.
+    pub(super) held_until: u64,
+    /// Its battery is empty.
+    pub(super) empty: bool,
 }
 
 impl Moving {
@@ -58,11 +62,13 @@ impl Moving {
             now: 0,
             seen: Vec::new(),
             even: true,
+            held_until: 0,
+            empty: false,
         }
     }
 
     pub(super) fn thinks(&self) -> bool {
-        self.failures.thinks(self.kind.robot)
+        !self.empty && self.failures.thinks(self.kind.robot)
     }
 
     /// Returns what is demanded of the motors.
@@ -70,7 +76,9 @@ impl Moving {
         let (kind, mode) = (self.kind, mode(self.kind.robot, orders.place));
         let runs = orders.configuration().and_then(|it| kind.robot.configurations.get(it));
         let left = u64::from(self.adapted.speed(&kind.tables, Millis(self.now), mode));
-        let speed = runs.filter(|_| orders.permits).map_or(0, |it| it.speed.0 * left / 1_000);
+        let speed = runs
+            .filter(|_| orders.permits && self.now >= self.held_until)
+            .map_or(0, |it| it.speed.0 * left / 1_000);
         let braked = || Millimetres(self.drive.x().0 + self.drive.braking_distance().0 + 1);
         Demand {
             speed: MillimetresPerSecond(speed),
@@ -85,6 +93,9 @@ impl Moving {
     pub(super) fn go(&mut self, now: u64, orders: &Orders) {
         let kind = self.kind;
         let period = kind.period();
+        if self.empty {
+            self.now += now.saturating_sub(self.now) / period * period;
+        }
         while self.now + period <= now {
             let (before, start) = (self.drive, Millis(self.now));
             self.failures.end(kind.robot, start, |_| false);
@@ -143,7 +154,8 @@ impl Moving {
         let failures = self.failures.changes(self.kind.robot, just_before);
         let shown = self.failures.shown(&self.kind.tables);
         let settings = self.adapted.ends_at(&self.kind.tables, shown, just_before);
-        failures.into_iter().chain(settings)
+        let goes_on = (self.held_until > just_before.0).then_some(Millis(self.held_until));
+        failures.into_iter().chain(settings).chain(goes_on)
     }
 
     /// In how many periods observers see nothing new.

@@ -4,7 +4,7 @@ use cotama_core::player::{Loaded, Packed};
 use cotama_core::units::{Millis, Milliwatts};
 use cotama_models::level::{Cause, Level, Tables, Told};
 use cotama_models::robots::supervisors;
-use cotama_models::robots::{Body, OwnedTables, Robot, RobotFile, members};
+use cotama_models::robots::{Body, OwnedTables, Robot, RobotFile};
 use cotama_models::team::scenario::{self, SLOTS, WORDS};
 use std::sync::{Mutex, PoisonError};
 
@@ -42,15 +42,6 @@ pub(super) fn kind_of(file: &RobotFile) -> &'static Kind {
     kind
 }
 
-/// Returns the power of the hardware that a configuration uses.
-fn power(robot: &Robot, configuration: usize) -> Milliwatts {
-    let required = robot.configurations.get(configuration).map_or(0, |it| it.required);
-    let modules = members(required).filter_map(|it| robot.modules.get(it));
-    let used = modules.fold(0, |all, it| all | it.needs.hardware);
-    let used = members(used).filter_map(|it| robot.hardware.get(it));
-    Milliwatts(used.fold(0, |all, it| all.saturating_add(it.power.0)))
-}
-
 impl Kind {
     /// Makes the supervisors of a robot's file, which the reader of teams found to be playable.
     fn of(file: &'static RobotFile) -> Self {
@@ -69,7 +60,7 @@ impl Kind {
             tables: *tables,
             at_rest: Level::start(tables, packed.load(&system)),
             observation: system.components.iter().position(|it| it.name == "gom"),
-            powers: configurations.map(|it| power(robot, it)).collect(),
+            powers: configurations.map(|it| scenario::power(robot, it)).collect(),
         }
     }
 

@@ -18,7 +18,7 @@ fn name(row: Row) -> String {
 /// When the stages of a task begin, with a failure at 20 s; and how it ends.
 fn course(mode: Option<&str>, every_round: bool) -> Vec<(u64, Stage)> {
     let mut driver = driver(every_round);
-    driver.begin(0, [6_000, 9_000]);
+    driver.begin(0, [6_000, 9_000], [0; 2]);
     let (mut stages, mut now, mut since) = (vec![(0, driver.stage())], 0, 0);
     let mut failure = mode;
     while now < 400_000 {
@@ -79,7 +79,7 @@ fn an_emergency_stop_ends_the_mission_and_lost_sonars_slow_it() {
 #[test]
 fn a_flag_stays_up_while_another_failure_holds_it() {
     let mut driver = driver(true);
-    driver.begin(0, [60_000, 60_000]);
+    driver.begin(0, [60_000, 60_000], [0; 2]);
     let mut slowed = Vec::new();
     for now in (0..60_000).step_by(100) {
         if now == 20_000 || now == 26_000 {
@@ -98,7 +98,7 @@ fn a_flag_stays_up_while_another_failure_holds_it() {
 /// Drives for 20 s at 300 mm/s, then loses its laptop or its role.
 fn stands_after(mode: Option<&str>) -> u64 {
     let mut driver = driver(true);
-    driver.begin(0, [60_000, 60_000]);
+    driver.begin(0, [60_000, 60_000], [0; 2]);
     for now in (0..=20_000).step_by(100) {
         driver.round(now, false);
     }
@@ -132,7 +132,7 @@ fn a_motor_that_runs_away_is_cut_off_and_moved_meanwhile() {
 #[test]
 fn losses_stay_known_in_the_next_task() {
     let mut driver = driver(true);
-    driver.begin(0, [60_000, 60_000]);
+    driver.begin(0, [60_000, 60_000], [0; 2]);
     for now in (0..40_000).step_by(100) {
         if now == 10_000 {
             driver.fail(now, row("SON1"));
@@ -140,7 +140,7 @@ fn losses_stay_known_in_the_next_task() {
         driver.round(now, false);
     }
     assert_eq!(driver.pace(), Some(150));
-    driver.begin(40_000, [6_000, 60_000]);
+    driver.begin(40_000, [6_000, 60_000], [0; 2]);
     assert_eq!((driver.pace(), driver.moving.drive.speed().0), (Some(150), 0));
     let rounds = (40_100..60_000).step_by(100).map(|now| driver.round(now, false));
     let runs: Vec<_> = rounds.filter_map(|it| it.configuration).collect();
@@ -160,12 +160,12 @@ fn a_robot_that_asks_in_vain_is_stopped_after_two_minutes() {
 #[test]
 fn a_failure_without_a_loss_is_found_again_in_the_next_task() {
     let mut driver = driver(true);
-    driver.begin(0, [60_000, 60_000]);
+    driver.begin(0, [60_000, 60_000], [0; 2]);
     let mut found = Vec::new();
     for now in (0..60_000).step_by(100) {
         match now {
             10_000 => driver.fail(now, row("MOT3")),
-            30_000 => driver.begin(now, [60_000, 60_000]),
+            30_000 => driver.begin(now, [60_000, 60_000], [0; 2]),
             _ => {}
         }
         found.extend(driver.round(now, false).found.map(|it| (now, name(it))));

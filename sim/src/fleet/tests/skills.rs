@@ -28,6 +28,7 @@ fn robot(name: &str, start: usize, fails: u16, known: Reliability) -> RobotSpec 
         fails: FailureRates::NONE.with(GRASP_2F, fails),
         start: Place(start),
         stay: Stay::default(),
+        supply: None,
     }
 }
 

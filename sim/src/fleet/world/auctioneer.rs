@@ -125,6 +125,12 @@ impl Auctioneer {
         self.next_auction = now + PAUSE;
     }
 
+    /// The robots that were heard of lately.
+    fn heard_of(&self, now: u64) -> RobotSet {
+        let heard = self.last_heard.iter().enumerate().filter(|it| *it.1 + SILENCE >= now);
+        heard.fold(0, |all, it| all | 1 << it.0)
+    }
+
     /// The robots with an award.
     fn engaged(&self) -> RobotSet {
         let awards = self.live.iter().filter_map(|it| {
@@ -183,8 +189,7 @@ impl World<'_> {
             return;
         }
         let all: RobotSet = (1 << self.robots.len()) - 1;
-        let heard = |it: &usize| auctioneer.last_heard[*it] + SILENCE >= self.now;
-        let wanted = (0..self.robots.len()).filter(heard).fold(0, |all, it| all | 1 << it);
+        let wanted = auctioneer.heard_of(self.now);
         let engaged = auctioneer.engaged();
         if wanted & !engaged & !auctioneer.unfit == 0 && engaged != 0 {
             return;
@@ -283,7 +288,9 @@ impl World<'_> {
                 offers(robot).any(|it| it.1.iter().any(this))
             });
         let offered = staffed || !auction.shares.is_empty();
-        let engaged = self.auctioneer.engaged() | self.auctioneer.busy;
+        // Whoever was busy and is silent may be gone.
+        let busy = self.auctioneer.busy & self.auctioneer.heard_of(self.now);
+        let engaged = self.auctioneer.engaged() | busy;
         let ticket = self.auctioneer.ticket_mut(task);
         ticket.state = State::Open;
         if ticket.finished {

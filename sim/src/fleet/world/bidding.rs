@@ -1,6 +1,7 @@
 //! Bidders and brokers: what a robot asks for a role, and which coalition a broker bids.
 
-use super::robot::{Asking, Duty};
+use super::robot::Asking;
+use super::supply::Errand;
 use super::{Event, World};
 use crate::fleet::allocate::is_shared;
 use crate::fleet::bid::{Offer, Whereabouts};
@@ -113,7 +114,7 @@ impl World<'_> {
     /// busy.
     pub(super) fn offers(&self, robot: usize, tasks: &[usize]) -> Vec<Offer> {
         let agent = &self.robots[robot];
-        if !matches!(agent.duty, Duty::Free) || !self.works(robot) {
+        if agent.is_busy() || !self.works(robot) {
             return Vec::new();
         }
         // A robot with an object on board works for its task only.
@@ -157,7 +158,11 @@ impl World<'_> {
             pace: agent.driver.pace()?,
             ends: self.places(robot, task, role)?,
             holds: role.take == Take::Object && agent.holds == Some(task),
+            seen: agent.passages.seen(),
         };
+        if self.is_short(robot, role, &outlook) {
+            return None;
+        }
         let quote = self.scenario.quote(role, &outlook)?;
         let slowed = spec.pace(0) > Some(outlook.pace);
         if self.planted == Some(super::Planted::BidsInSeconds) && slowed {
@@ -172,6 +177,12 @@ impl World<'_> {
         let object = match self.objects[task].at {
             Whereabouts::Lies(spot) => spot,
             Whereabouts::Held(other) if other == robot => self.robots[robot].spot,
+            // Nobody knows where to meet a robot that drives home.
+            Whereabouts::Held(other)
+                if role.take == Take::Object && self.robots[other].errand == Some(Errand::Home) =>
+            {
+                return None;
+            }
             Whereabouts::Held(other) => self.spot(other),
             // Nobody looks for it where the role takes none.
             Whereabouts::Delivered if role.take == Take::Object => return None,

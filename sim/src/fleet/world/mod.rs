@@ -7,6 +7,7 @@ mod bidding;
 mod office;
 mod robot;
 mod succession;
+mod supply;
 #[cfg(test)]
 mod tests;
 mod working;
@@ -15,6 +16,7 @@ use super::allocate::Allocator;
 use super::driver::Driver;
 use super::message::{Ending, Letter, Message, Party};
 use super::network::Network;
+use super::passages::Passages;
 use super::record::{Fate, Record, Run};
 use super::skills::Skills;
 use crate::fleet::bid::{Object, Whereabouts};
@@ -55,6 +57,8 @@ enum Event {
     Fault(usize),
     /// Whoever gave tasks to an auctioneer that nobody follows gives them up.
     GivenUp,
+    /// The battery of a robot is full.
+    Charged(usize),
 }
 
 /// A defect planted on purpose, so that it can be measured what finds it.
@@ -111,7 +115,8 @@ impl<'s> World<'s> {
             let skills = Skills::new(spec, &scenario.skills, trust, streams);
             let follows =
                 Follows::new(scenario.auctioneer.robot().unwrap_or(scenario.robots.len()));
-            Agent::new(driver, Spot::at(spec.start), skills, follows)
+            let passages = Passages::new(scenario, spec, streams);
+            Agent::new(driver, Spot::at(spec.start), (skills, passages), follows, spec)
         };
         let lies = |it: &cotama_models::team::scenario::TaskSpec| Object {
             at: Whereabouts::Lies(Spot::at(it.start)),
@@ -189,6 +194,7 @@ impl<'s> World<'s> {
                 Event::Opens(task) => self.open(task),
                 Event::Fault(number) => self.fault(number),
                 Event::GivenUp => self.given_up(),
+                Event::Charged(robot) => self.charged(robot),
             }
             self.copy_first();
             look(&self);

@@ -1,16 +1,18 @@
 //! A robot of the team: what its broker hears and says.
 
 use super::office::{Copy, Follows};
+use super::supply::{Charge, Errand};
 use super::{BEAT, Planted, World};
 use crate::fleet::bid::Offer;
 use crate::fleet::driver::Driver;
 use crate::fleet::message::{Award, AwardId, Ending, Message, Party, Status};
+use crate::fleet::passages::Passages;
 use crate::fleet::record::Record;
 use crate::fleet::skills::Skills;
 use cotama_core::team::RobotSet;
 use cotama_models::team::ErrorClass;
 use cotama_models::team::Pledge;
-use cotama_models::team::scenario::{Row, Spot, Stage};
+use cotama_models::team::scenario::{RobotSpec, Row, Spot, Stage};
 use std::rc::Rc;
 
 /// A robot.
@@ -18,6 +20,12 @@ use std::rc::Rc;
 pub(super) struct Agent {
     pub(super) driver: Driver,
     pub(super) skills: Skills,
+    /// The people that it meets on crowded ways.
+    pub(super) passages: Passages,
+    /// The charge of its battery; `None` where nobody counts it.
+    pub(super) charge: Option<Charge>,
+    /// What it does for itself while it is free.
+    pub(super) errand: Option<Errand>,
     /// The spot where it stands, or began to drive.
     pub(super) spot: Spot,
     /// The spots where it takes and gives in its task.
@@ -94,10 +102,19 @@ impl Work {
 }
 
 impl Agent {
-    pub(super) fn new(driver: Driver, spot: Spot, skills: Skills, follows: Follows) -> Self {
+    pub(super) fn new(
+        driver: Driver,
+        spot: Spot,
+        (skills, passages): (Skills, Passages),
+        follows: Follows,
+        spec: &RobotSpec,
+    ) -> Self {
         Self {
             driver,
             skills,
+            passages,
+            charge: Charge::of(spec),
+            errand: None,
             spot,
             goals: [spot; 2],
             stage: Stage::Rests,
@@ -132,6 +149,11 @@ impl Agent {
         }
     }
 
+    /// Whether it may bid later, but not now.
+    pub(super) fn is_busy(&self) -> bool {
+        self.work().is_some() || self.errand.is_some()
+    }
+
     fn has(&self, award: AwardId) -> bool {
         self.work().is_some_and(|it| it.award.id == award)
     }
@@ -139,6 +161,7 @@ impl Agent {
     /// Returns the target of its drive, while it drives.
     pub(super) fn drives_to(&self) -> Option<Spot> {
         match (&self.duty, self.stage) {
+            (Duty::Free, Stage::ToTake) if self.errand == Some(Errand::Home) => Some(self.goals[0]),
             (Duty::Executing(_), Stage::ToTake) => Some(self.goals[0]),
             (Duty::Executing(_), Stage::ToGive) => Some(self.goals[1]),
             _ => None,
@@ -244,7 +267,7 @@ impl World<'_> {
         // No award is taken twice, and none whose time is over before the robot looks again.
         let new = round > agent.taken;
         let holds = until_ms > self.now + BEAT || self.planted == Some(Planted::NoLease);
-        let free = matches!(agent.duty, Duty::Free) && works && new;
+        let free = !agent.is_busy() && works && new;
         let role = award.robots.iter().position(|it| *it == robot);
         let Some(role) = role.filter(|_| bid && holds && free) else {
             // No is no: a copy of the award that comes later is not taken.
@@ -328,7 +351,7 @@ impl World<'_> {
         if let Duty::Executing(work) = &agent.duty {
             self.run.busy_ms += now - work.since;
         }
-        agent.duty = Duty::Free;
+        (agent.duty, agent.errand) = (Duty::Free, None);
         self.enter(robot, Stage::Safe);
         self.auctioneer_dies_with(robot);
     }
@@ -358,6 +381,7 @@ impl World<'_> {
         if self.robots[robot].drives_to().is_some() {
             self.note_spot(robot);
         }
+        self.looks_at_charge(robot);
         if !self.is_there(robot) {
             return;
         }
@@ -381,11 +405,11 @@ impl World<'_> {
         }
         let fit = self.works(robot);
         let agent = &mut self.robots[robot];
-        let busy = agent.work().is_some();
+        let (works, busy) = (agent.work().is_some(), agent.is_busy());
         let news = fit != agent.was_fit;
         agent.was_fit = fit;
         // A robot at work has said so already.
-        if news || !busy {
+        if news || !works {
             let asks = self.misses_auctioneer(robot);
             self.send(me, desk, Message::Alive { busy, fit, asks });
         }
@@ -413,7 +437,7 @@ impl World<'_> {
     }
 
     /// The drive is cut short: the robot comes to stand.
-    fn stop_short(&mut self, robot: usize) {
+    pub(super) fn stop_short(&mut self, robot: usize) {
         let agent = &self.robots[robot];
         if let Some(goal) = agent.drives_to() {
             let way = agent.driver.stand_mm(self.now);

@@ -33,9 +33,12 @@ impl World<'_> {
             self.give_back(robot, ErrorClass::NonRecoverable, "there is nothing to take");
             return;
         };
-        let (now, agent) = (self.now, &mut self.robots[robot]);
+        let (now, scenario, agent) = (self.now, self.scenario, &mut self.robots[robot]);
         agent.goals = goals;
-        agent.driver.begin(now, legs);
+        let drives = [(agent.spot, goals[0]), (goals[0], goals[1])];
+        let ways = drives.map(|(from, to)| scenario.crowds_on(from, to));
+        let holds = agent.passages.enter(&scenario.crowds, ways);
+        agent.driver.begin(now, legs, holds);
         self.enter(robot, Stage::ToTake);
         self.wake(robot);
     }
@@ -75,12 +78,18 @@ impl World<'_> {
     fn arrive(&mut self, robot: usize, before: Stage, stage: Stage) {
         let agent = &mut self.robots[robot];
         match before {
-            Stage::ToTake if stage == Stage::Takes => agent.spot = agent.goals[0],
-            Stage::ToGive if stage == Stage::Gives => agent.spot = agent.goals[1],
+            Stage::ToTake if stage == Stage::Takes => {
+                agent.spot = agent.goals[0];
+                agent.passages.is_through(0);
+            }
+            Stage::ToGive if stage == Stage::Gives => {
+                agent.spot = agent.goals[1];
+                agent.passages.is_through(1);
+            }
             _ => {}
         }
         let Some(work) = self.robots[robot].work() else {
-            self.enter(robot, stage);
+            self.on_its_own(robot, stage);
             return;
         };
         let (task, award) = (work.award.id.task, std::rc::Rc::clone(&work.award));
@@ -307,8 +316,9 @@ impl World<'_> {
         // takes time.
         let Some(pace) = agent.driver.pace() else { return Some(self.now - work.since) };
         let [takes, gives] = agent.goals;
+        let delay = self.scenario.delay(takes, gives, agent.passages.seen());
         let body = self.scenario.robots[robot].file.robot();
-        let second = drive_ms(body, self.scenario.floor.distance(takes, gives)?, pace);
+        let second = drive_ms(body, self.scenario.floor.distance(takes, gives)?, pace) + delay;
         let left = agent.driver.left_mm(self.now) * 1_000 / pace;
         let spent = self.now - work.since;
         let rest = match agent.stage {

@@ -166,16 +166,27 @@ impl<'t> Fields<'t> {
         range: RangeInclusive<i64>,
         most: usize,
     ) -> Option<Vec<T>> {
+        let all: Vec<T> = self.integers_or_none(key, range, most)?;
+        if all.is_empty() {
+            let node = self.required(key)?;
+            self.report_empty(key, node);
+            return None;
+        }
+        Some(all)
+    }
+
+    /// The same, of which there may be none.
+    pub(crate) fn integers_or_none<T: TryFrom<i64>>(
+        &mut self,
+        key: &'static str,
+        range: RangeInclusive<i64>,
+        most: usize,
+    ) -> Option<Vec<T>> {
         let node = self.required(key)?;
         let usual = std::mem::replace(&mut self.most_entries, most);
         let items = self.items(key, node);
         self.most_entries = usual;
-        let items = items?;
-        if items.is_empty() {
-            self.report_empty(key, node);
-            return None;
-        }
-        let all: Vec<_> = items.iter().map(|item| self.integer_of(key, item, &range)).collect();
+        let all: Vec<_> = items?.iter().map(|item| self.integer_of(key, item, &range)).collect();
         all.into_iter().collect()
     }
 }

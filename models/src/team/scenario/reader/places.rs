@@ -1,16 +1,21 @@
 //! Reading the floor of a team: its places, and the ways between them.
 
 use super::{Names, among};
-use crate::missions::reader::fields::Fields;
+use crate::missions::reader::fields::{Fields, Reported};
 use crate::missions::{Diagnostic, Refusal, Spanned};
 use crate::names::quoted;
-use crate::team::scenario::{Floor, MANY, MOST_PAIRED, MOST_PLANNED, On, Place, Ways};
+use crate::team::scenario::{
+    Crowd, Floor, MANY, MOST_DELAYS, MOST_PAIRED, MOST_PLANNED, On, Place, Ways,
+};
 use std::cell::RefCell;
 use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
 /// Lengths of ways in mm, up to 10 km.
 const LENGTHS: RangeInclusive<i64> = 1..=10_000_000;
+
+/// Delays in ms, up to an hour.
+const DELAYS: RangeInclusive<i64> = 0..=3_600_000;
 
 /// The names of places, with what a floor has against them.
 #[derive(Default)]
@@ -57,7 +62,7 @@ pub(super) fn floor(
     fields: &mut Fields<'_>,
     ways: Option<&Ways>,
     names: &mut Names,
-) -> Option<Floor> {
+) -> Option<(Floor, Vec<Crowd>)> {
     if fields.is_table("floor") {
         return fields.table("floor").and_then(|it| of_table(it, ways, names));
     }
@@ -66,12 +71,8 @@ pub(super) fn floor(
     names.places.names.clone_from(&ways.asked.places);
     *names.places.refused.borrow_mut() = ways.refused();
     let floor = complete(fields, ways, name.span)?;
-    Some(floor.standing_on(On::new(
-        name.value,
-        Default::default(),
-        None,
-        Some(ways.clone().into()),
-    )))
+    let on = On::new(name.value, Default::default(), None, Some(ways.clone().into()));
+    Some((floor.standing_on(on), Vec::new()))
 }
 
 /// The answer of a floor of this name; reports that there is none.
@@ -115,7 +116,11 @@ fn complete(fields: &Fields<'_>, ways: &Ways, span: Range<usize>) -> Option<Floo
 }
 
 /// The floor of a table: places, and ways with lengths, which a floor of walls and rooms may give.
-fn of_table(mut fields: Fields<'_>, ways: Option<&Ways>, names: &mut Names) -> Option<Floor> {
+fn of_table(
+    mut fields: Fields<'_>,
+    ways: Option<&Ways>,
+    names: &mut Names,
+) -> Option<(Floor, Vec<Crowd>)> {
     let on = fields.optional_text("on").ok()?;
     let doors = match &on {
         Some(_) => ["open", "close"].map(|key| fields.optional_texts(key)),
@@ -147,24 +152,31 @@ fn of_table(mut fields: Fields<'_>, ways: Option<&Ways>, names: &mut Names) -> O
     let has_ways = fields.has("way");
     let most = if on.is_some() { MOST_PLANNED } else { MANY };
     let read = fields.tables_up_to("way", false, most).unwrap_or_default();
-    let read: Vec<_> = read.into_iter().map(|it| way(it, on.is_some(), ways, names)).collect();
+    let (mut all, mut crowded) = (Vec::new(), Vec::new());
+    for it in read {
+        let way = way(it, on.is_some(), ways, names, &crowded);
+        crowded.extend(way.as_ref().and_then(|it| it.crowd.as_ref()).map(|it| it.between));
+        all.push(way);
+    }
     let complete = match ways {
         Some(ways) if !has_ways => Some(complete(&fields, ways, span)?),
         _ => None,
     };
     fields.finish();
     places?;
-    let read = read.into_iter().collect::<Option<Vec<_>>>()?;
-    let given = read.iter().filter(|it| it.3).map(|it| (it.0, it.1)).collect();
-    let lengths: Vec<_> = read.iter().map(|it| (it.0, it.1, it.2)).collect();
+    let read = all.into_iter().collect::<Option<Vec<_>>>()?;
+    let given = read.iter().filter(|it| it.given).map(|it| it.ends).collect();
+    let lengths: Vec<_> = read.iter().map(|it| (it.ends.0, it.ends.1, it.length)).collect();
+    let crowds = read.into_iter().filter_map(|it| it.crowd).collect();
     let known: Vec<&str> = names.places.names.iter().map(String::as_str).collect();
     let floor = complete.unwrap_or_else(|| Floor::new(&known, &lengths));
-    let Some(on) = on else { return Some(floor) };
+    let Some(on) = on else { return Some((floor, crowds)) };
     let [open, close] = doors;
     let words = |all: Vec<Spanned<String>>| all.into_iter().map(|it| it.value).collect();
     let doors = [words(open.ok()?), words(close.ok()?)];
     let ways = ways.cloned().map(Arc::new);
-    Some(floor.standing_on(On::new(on.value, doors, has_ways.then_some(given), ways)))
+    let on = On::new(on.value, doors, has_ways.then_some(given), ways);
+    Some((floor.standing_on(on), crowds))
 }
 
 /// The places of a list.
@@ -179,13 +191,62 @@ fn listed(fields: &Fields<'_>, places: &[Spanned<String>], names: &mut Names) {
     }
 }
 
-/// A way between two places, with its length, and whether the file says it.
+/// A way between two places.
+struct Way {
+    ends: (usize, usize),
+    length: u64,
+    /// Whether the file says its length.
+    given: bool,
+    crowd: Option<Crowd>,
+}
+
+/// The delays of a way.
+fn crowd(
+    fields: &mut Fields<'_>,
+    ends: Option<(usize, usize)>,
+    others: &[(usize, usize)],
+) -> Result<Option<Crowd>, Reported> {
+    if !fields.has("delays_ms") {
+        fields.knows("delays_ms");
+        // Delays that were seen say nothing of those that will be.
+        if fields.has("seen_ms") {
+            let message = "`seen_ms` is of a way that has `delays_ms`";
+            let help = "say with `delays_ms` what may happen to a drive";
+            let span = fields.span_of("seen_ms");
+            fields.report(Diagnostic::new(span, message, "no delays").help(help));
+            fields.knows("seen_ms");
+            return Err(Reported);
+        }
+        fields.knows("seen_ms");
+        return Ok(None);
+    }
+    let delays = fields.integers_up_to("delays_ms", DELAYS, MOST_DELAYS);
+    let seen = if fields.has("seen_ms") {
+        Some(fields.integers_or_none("seen_ms", DELAYS, MOST_DELAYS).ok_or(Reported)?)
+    } else {
+        fields.knows("seen_ms");
+        None
+    };
+    let (a, b) = ends.ok_or(Reported)?;
+    let between = (a.min(b), a.max(b));
+    if others.contains(&between) {
+        let message = "a way between these places has `delays_ms` already";
+        let help = "leave them out here, or make one list of both";
+        fields.report(Diagnostic::new(fields.span_of("delays_ms"), message, "twice").help(help));
+        return Err(Reported);
+    }
+    let delays_ms = delays.ok_or(Reported)?;
+    Ok(Some(Crowd { between, delays_ms, seen_ms: seen }))
+}
+
+/// Reads a way, with its length and its delays.
 fn way(
     mut fields: Fields<'_>,
     on_floor: bool,
     ways: Option<&Ways>,
     names: &Names,
-) -> Option<(usize, usize, u64, bool)> {
+    crowded: &[(usize, usize)],
+) -> Option<Way> {
     let between = fields.texts("between");
     let ends = between.as_ref().and_then(|it| match &it[..] {
         [a, b] if a.value != b.value => {
@@ -221,7 +282,7 @@ fn way(
         }
         planned
     };
+    let crowd = crowd(&mut fields, ends, crowded);
     fields.finish();
-    let (a, b) = ends?;
-    Some((a, b, length?, given))
+    Some(Way { ends: ends?, length: length?, given, crowd: crowd.ok()? })
 }

@@ -2,11 +2,12 @@
 
 use super::super::worker::unfit;
 use super::{AMOUNTS, FORMAT, Names, new_name, skills};
-use crate::missions::reader::fields::{Fields, Sink, document_of_either};
+use crate::missions::reader::fields::{Fields, Reported, Sink, document_of_either};
 use crate::missions::{Diagnostic, Spanned};
 use crate::names::quoted;
 use crate::robots::{EMBEDDED, RobotFile};
-use crate::team::scenario::{MAX_ROBOTS, RobotSpec, Row, Scenario, Stay, usual};
+use crate::team::scenario::{MAX_ROBOTS, RobotSpec, Row, Scenario, Stay, Supply, usual};
+use cotama_core::units::MillimetresPerSecond;
 
 /// The files that robots of a team can name, each looked at once.
 pub(super) struct Files<'f> {
@@ -66,9 +67,11 @@ pub(super) fn robot(
     let start = names.places.place(&fields, at.as_ref());
     let skills = skills(&mut fields, names);
     let stay = stay(&mut fields);
+    let supply = supply(&mut fields, names, file.as_ref());
     fields.finish();
     let (skills, fails) = skills?;
-    Some(RobotSpec { name: name?, file: file?, skills, fails, start: start?, stay: stay? })
+    let (file, start, stay, supply) = (file?, start?, stay?, supply.ok()?);
+    Some(RobotSpec { name: name?, file, skills, fails, start, stay, supply })
 }
 
 /// The file of a robot: the usual one where it names none.
@@ -87,6 +90,44 @@ fn file(fields: &mut Fields<'_>, files: &mut Files<'_>) -> Option<RobotFile> {
             None
         }
     }
+}
+
+/// The battery of a robot, which its file must have.
+fn supply(
+    fields: &mut Fields<'_>,
+    names: &Names,
+    file: Option<&RobotFile>,
+) -> Result<Option<Supply>, Reported> {
+    let span = fields.span_of("battery");
+    let Some(mut own) = fields.optional_table("battery")? else { return Ok(None) };
+    let charge = own.optional_integer("charge_permille", 1..=1_000);
+    let reserve = own.optional_integer("reserve_permille", 0..=500);
+    let home = own.text("home");
+    let home = names.places.place(&own, home.as_ref());
+    let charger = own.integer("charger_w", 1..=100_000);
+    own.finish();
+    let body = file.and_then(|it| it.robot().body.as_ref()).ok_or(Reported)?;
+    let refuse = |message: String, label: &str, help: &str| {
+        fields.report(Diagnostic::new(span.clone(), message, label).help(help));
+    };
+    if body.battery.is_none() {
+        let help = "add `[body.battery]` to its file, or leave `battery` out here";
+        refuse("the file of this robot has no battery".to_owned(), "no battery", help);
+        return Err(Reported);
+    }
+    let charger_w: u32 = charger.ok_or(Reported)?;
+    let stands = body.motion_power.at(MillimetresPerSecond(0)).0;
+    if u64::from(charger_w) * 1_000 <= stands {
+        let message = format!("the robot draws {stands} mW while it stands, so it is never full");
+        refuse(message, "too weak", "give `charger_w` of a stronger charger");
+        return Err(Reported);
+    }
+    Ok(Some(Supply {
+        charge_permille: charge?.unwrap_or(1_000),
+        reserve_permille: reserve?.unwrap_or(10),
+        home: home.ok_or(Reported)?,
+        charger_w,
+    }))
 }
 
 /// When a robot joins the team, and when it leaves.
