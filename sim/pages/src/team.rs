@@ -119,7 +119,7 @@ fn gantt(page: &mut String, trace: &Trace, all: &[Vec<Bar>], has_cursor: bool) {
     page.push_str(&lanes(trace, all, WIDE, has_cursor));
     page.push_str(&lanes(trace, all, NARROW, has_cursor));
     page.push_str("<figcaption class=\"keys\">");
-    let own = [("f1", "drives home"), ("f4", "is charged")];
+    let own = [("f1", "drives home"), ("f3", "is charged")];
     let own = own.into_iter().filter(|it| all.iter().flatten().any(|bar| bar.class == it.0));
     for (class, words) in COLOURS.into_iter().chain(own) {
         let _ =

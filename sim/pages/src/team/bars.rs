@@ -70,8 +70,8 @@ pub(super) fn bars(trace: &Trace, robot: usize, end_ms: u64) -> Vec<Bar> {
     for (next, turns) in own.chain([((end_ms, None, Stage::Rests), None)]) {
         if let Some((from, task, stage)) = current.filter(|it| it.0 < next.0) {
             let (class, does) = match stage {
-                Stage::ToTake if task.is_none() => ("f1", "drives home"),
-                Stage::Rests if for_itself => ("f4", "is charged"),
+                Stage::ToTake if for_itself => ("f1", "drives home"),
+                Stage::Rests if for_itself => ("f3", "is charged"),
                 Stage::ToTake => ("f6", "drives to take"),
                 Stage::Takes => ("f5", "takes"),
                 Stage::ToGive => ("f0", "drives to give"),

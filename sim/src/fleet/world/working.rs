@@ -49,6 +49,10 @@ impl World<'_> {
             return;
         }
         self.robots[robot].next_round = None;
+        // It stays where its end has found it.
+        if !self.robots[robot].driver.thinks() {
+            return;
+        }
         self.hand_over(robot);
         let done = self.hands_are_done(robot) && self.acts(robot);
         let now = self.now;
