@@ -28,6 +28,8 @@ except ImportError:
     sys.exit(75)
 
 WORDS = 12
+# Time in ms after which a page that says nothing is wrong; machines may be busy.
+PATIENCE = 120_000
 CAPTURE = """
     window.saved = [];
     URL.createObjectURL = (blob) => { window.saved.push(blob.text()); return "#"; };
@@ -112,13 +114,17 @@ def compared(page, program, data, words, rounds, folder):
     """Plays a run in the page and by the program; returns how many records are the same."""
     link = ("rounds=100&" if rounds else "") + "run=" + ",".join(words)
     page.evaluate(
-        "(it) => { document.getElementById('said').textContent = ''; location.hash = it; }", link
+        "(it) => { document.getElementById('said').textContent = '';"
+        " if (location.hash === '#' + it) location.hash = ''; location.hash = it; }",
+        link,
     )
     said = f"step {len(words)} of {len(words)}"
     page.wait_for_function(
         "(it) => document.getElementById('steps').textContent === it"
         " && document.getElementById('said').textContent.startsWith('The run of the link')",
         arg=said,
+        polling=20,
+        timeout=PATIENCE,
     )
     mine = recorded(page)
     shown = page.evaluate("document.getElementById('command').textContent")
@@ -172,7 +178,7 @@ def main():
             page.on("console", lambda it: wrong.append(it.text))
             page.on("pageerror", lambda it: wrong.append(str(it)))
             page.goto(file.as_uri())
-            page.wait_for_function("document.documentElement.dataset.ready")
+            page.wait_for_function("document.documentElement.dataset.ready", timeout=PATIENCE)
             data = json.loads(page.text_content("#data"))
             # No other command plays a part of a team.
             for _ in range(each if data["command"] else 0):
@@ -189,7 +195,7 @@ def main():
             page.on("console", lambda it: wrong.append(it.text))
             page.on("pageerror", lambda it: wrong.append(str(it)))
             page.goto(file.as_uri())
-            page.wait_for_function("document.documentElement.dataset.ready")
+            page.wait_for_function("document.documentElement.dataset.ready", timeout=PATIENCE)
             said = page.evaluate(CLICKS, asked.clicks)
             is_broken = page.evaluate("!document.getElementById('broken').hidden")
             assert not is_broken, page.text_content("#broken")
