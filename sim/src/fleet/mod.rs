@@ -52,6 +52,7 @@
 mod allocate;
 mod award;
 mod bid;
+mod charge;
 mod driver;
 pub mod floors;
 mod ledger;

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 
 /// The most delays of a way that a file lists, and the most that a robot remembers of it.
 pub const MOST_DELAYS: usize = 1_000;
-/// The most values of a way, and of a sum, that are kept; of more, neighbours become the larger one.
+/// The most values of a way, and of a sum, that are kept: of more, neighbours become the larger
+/// one.
 const MOST_VALUES: usize = 64;
 const MOST_SUMS: usize = 256;
 /// Weights of a sum are exact up to this; beyond it they are rounded up.
@@ -201,7 +202,7 @@ mod tests {
         let way: Vec<u64> = (0..1_000).map(|it| it * it).collect();
         let ways = [&way[..]; 30];
         let found = [500, 900, 1_000].map(|it| Travel::Quantile(it).of(&ways));
-        // The mean of the sum is 9,985,005, its deviation 1.6 million, its largest value 29,940,030.
+        // The mean of the sum is 9,985,005, its deviation 1.6 million, its most 29,940,030.
         assert!(found[0] > 9_900_000 && found[0] < 11_500_000, "{found:?}");
         assert!(found[1] > 12_000_000 && found[1] < 14_000_000, "{found:?}");
         assert_eq!(found[2], 30 * 998_001);

@@ -11,7 +11,8 @@ use cotama_models::team::scenario::{Scenario, Travel, Trust};
 /// four drives, `far` by a yard that is free, and a little longer. Parcels come every ten minutes.
 fn corridor(tasks: usize) -> Scenario {
     let mut text = String::from(
-        "format = 'cotama-team/1'\nname = 'corridor'\n[floor]\nplaces = ['corridor', 'store', 'yard']\n\
+        "format = 'cotama-team/1'\nname = 'corridor'\n[floor]\n\
+         places = ['corridor', 'store', 'yard']\n\
          [[floor.way]]\nbetween = ['corridor', 'store']\nlength_mm = 12000\n\
          delays_ms = [0, 0, 0, 120000]\n\
          [[floor.way]]\nbetween = ['yard', 'store']\nlength_mm = 15000\n\
@@ -22,7 +23,8 @@ fn corridor(tasks: usize) -> Scenario {
         let arrives = 600_000 * task;
         text += &format!(
             "[[task]]\nname = 't{task}'\narrives_ms = {arrives}\nfrom = 'store'\nto = 'store'\n\
-             skip_ms = 900000\n[[task.plan]]\nname = 'carry'\n[[task.plan.role]]\nname = 'carrier'\n\
+             skip_ms = 900000\n[[task.plan]]\nname = 'carry'\n\
+             [[task.plan.role]]\nname = 'carrier'\n\
              needs = ['move', 'grasp']\ntake = 'object'\ngive = 'goal'\ntake_ms = 5000\n\
              give_ms = 5000\n"
         );

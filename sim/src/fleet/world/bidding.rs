@@ -1,10 +1,10 @@
 //! Bidders and brokers: what a robot asks for a role, and which coalition a broker bids.
 
 use super::robot::Asking;
-use super::supply::Errand;
 use super::{Event, World};
 use crate::fleet::allocate::is_shared;
 use crate::fleet::bid::{Offer, Whereabouts};
+use crate::fleet::charge::Errand;
 use crate::fleet::message::{Message, Party};
 use cotama_models::team::scenario::{Outlook, Quote, RoleSpec, Spot, Take};
 use cotama_models::team::{CapabilitySet, Skill};

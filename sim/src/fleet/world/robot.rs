@@ -1,9 +1,9 @@
 //! A robot of the team: what its broker hears and says.
 
 use super::office::{Copy, Follows};
-use super::supply::{Charge, Errand};
 use super::{BEAT, Planted, World};
 use crate::fleet::bid::Offer;
+use crate::fleet::charge::{Charge, Errand};
 use crate::fleet::driver::Driver;
 use crate::fleet::message::{Award, AwardId, Ending, Message, Party, Status};
 use crate::fleet::passages::Passages;

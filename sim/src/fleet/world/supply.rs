@@ -1,52 +1,15 @@
 //! Batteries: what is left, the way home, the charger.
 
 use super::{Event, World};
-use crate::fleet::driver::Driver;
+use crate::fleet::charge::Errand;
 use crate::fleet::message::{Message, Party};
 use crate::fleet::record::Record;
 use crate::fleet::world::robot::Duty;
 use cotama_models::team::ErrorClass;
-use cotama_models::team::scenario::{Outlook, RobotSpec, RoleSpec, Spot, Stage};
-use std::cell::Cell;
+use cotama_models::team::scenario::{Outlook, RoleSpec, Spot, Stage};
 
 /// A battery with less than this, in thousandths, is worth a way home.
 const NEARLY_FULL: u64 = 950;
-
-/// Energy of a robot's battery.
-#[derive(Clone, Debug)]
-pub(super) struct Charge {
-    full_mj: u64,
-    /// The charge at the start, with all that came from chargers, in mJ.
-    gained_mj: u64,
-    /// Since when it is charged, and by which power in mW.
-    charger: Option<(u64, u64)>,
-    /// It did not bid for something since it last looked, as its charge is short.
-    declined: Cell<bool>,
-}
-
-impl Charge {
-    pub(super) fn of(spec: &RobotSpec) -> Option<Self> {
-        let supply = spec.supply.as_ref()?;
-        let full_mj = spec.full_mj();
-        let gained_mj = full_mj / 1_000 * u64::from(supply.charge_permille);
-        Some(Self { full_mj, gained_mj, charger: None, declined: Cell::new(false) })
-    }
-
-    fn left_mj(&self, now: u64, driver: &Driver) -> u64 {
-        let came = self.charger.map_or(0, |(since, mw)| mw.saturating_mul(now - since) / 1_000);
-        let left = self.gained_mj.saturating_add(came).saturating_sub(driver.energy_mj(now));
-        left.min(self.full_mj)
-    }
-}
-
-/// An errand of a robot that is free.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Errand {
-    /// It drives home.
-    Home,
-    /// It is charged there.
-    Charges,
-}
 
 impl World<'_> {
     /// Returns what is left in the battery of a robot, in mJ; `None` where nobody counts it.

@@ -49,7 +49,7 @@ impl World<'_> {
             return;
         }
         self.robots[robot].next_round = None;
-        // It stays where its end has found it.
+        // A robot that has ended stays where that found it.
         if !self.robots[robot].driver.thinks() {
             return;
         }
