@@ -212,9 +212,14 @@ pub(crate) fn find(name: &str) -> Result<Found, Failure> {
     }
 }
 
-/// The supervisors of the mission of this name or file, if it is one that names its robot. Its
-/// floor decides nothing for them, so nothing warns of it.
+/// The supervisors of the mission of this name or file, if it is one that names its robot.
 fn of_mission(name: &str) -> Result<Option<Found>, Failure> {
+    Ok(mission_with_robot(name)?.and_then(|it| Found::of_mission(&it)))
+}
+
+/// The mission of this name or file, if it is one that names its robot. Its floor decides nothing
+/// for its supervisors, so nothing warns of it.
+pub(crate) fn mission_with_robot(name: &str) -> Result<Option<Mission>, Failure> {
     let text = match embedded::mission(name) {
         Some(it) => it.text.to_owned(),
         None if kind::is(name, FileKind::Mission) => {
@@ -225,7 +230,7 @@ fn of_mission(name: &str) -> Result<Option<Found>, Failure> {
     if Mission::robot_of(&text).is_none() {
         return Ok(None);
     }
-    Ok(Found::of_mission(&mission::load(name, None)?))
+    mission::load(name, None).map(Some)
 }
 
 /// The supervisors of a robot in a mission: one that names it, or a plain one.

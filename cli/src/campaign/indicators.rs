@@ -21,7 +21,7 @@ const MOST_RUNS: u64 = 1_000;
 /// Time from sample to sample, as in the thesis: two a second.
 const PERIOD: Millis = Millis(500);
 
-/// What the runs of a campaign hold besides their faults.
+/// Settings that the runs of a campaign hold besides their faults.
 pub(super) struct Held {
     pub(super) measured: Option<Arc<Measurement>>,
     pub(super) margins: Option<Arc<Calibration>>,

@@ -6,14 +6,14 @@ use crate::file_errors::FileErrors;
 use crate::input;
 use crate::kind::{self, Kind as FileKind};
 use crate::mission;
-use crate::model::Found;
+use crate::model::{self, Found};
 use crate::names::quoted;
 use crate::output::Screen;
 use crate::run::refused;
 use cotama_campaign::subject::Policy;
 use cotama_core::units::Millis;
 use cotama_models::missions::faults::{EventKind, Faults, FaultsFile};
-use cotama_models::missions::{Definition, Mission, embedded};
+use cotama_models::missions::{Definition, Mission};
 use cotama_models::robots::{Incident, IncidentKind, Moment};
 use cotama_playground::course::{Leg, Objective};
 use cotama_playground::outing::{Item, Kind, Outing, world};
@@ -47,17 +47,7 @@ pub(super) fn of(
     if kind::is(name, FileKind::Trace) {
         return of_trace(name).map(Some);
     }
-    let text = match embedded::mission(name) {
-        Some(it) => it.text.to_owned(),
-        None if kind::is(name, FileKind::Mission) => {
-            kind::text(name, "a mission file", input::MISSION_BYTES, &[FileKind::Mission])?
-        }
-        None => return Ok(None),
-    };
-    if Mission::robot_of(&text).is_none() {
-        return Ok(None);
-    }
-    let mission = mission::load(name, None)?;
+    let Some(mission) = model::mission_with_robot(name)? else { return Ok(None) };
     let Some(found) = Found::of_mission(&mission) else { return Ok(None) };
     // A mission without a plan, or one that is not simulated, has no courses.
     let trace = Trace::record(&mission, &Options::default()).ok();

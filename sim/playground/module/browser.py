@@ -21,6 +21,8 @@ import sys
 import tempfile
 import urllib.parse
 
+from subjects import subjects
+
 try:
     from playwright.sync_api import sync_playwright
 except ImportError:
@@ -62,16 +64,6 @@ CLICKS = """async (n) => {
     times.sort((a, b) => a - b);
     return { done, median: times[times.length >> 1], worst };
 }"""
-
-
-def subjects(program):
-    """The name of each model, the least of each family, each robot and its missions."""
-    said = lambda *words: json.loads(subprocess.check_output([program, *words, "--json"]))
-    for model in said("models")["models"]:
-        numbers = model.get("numbers")
-        yield f"{model['name']}:{max(2, numbers['least'])}" if numbers else model["name"]
-    listed = said("list")
-    yield from (it["name"] for kind in ("robots", "missions", "scenarios") for it in listed[kind])
 
 
 def quoted(name):
@@ -151,6 +143,17 @@ def compared(page, program, data, words, rounds, folder):
     return len(mine)
 
 
+def shown(browser, file, wrong):
+    """Opens a page; all that it says on the console goes to `wrong`."""
+    page = browser.new_page()
+    page.add_init_script(CAPTURE)
+    page.on("console", lambda it: wrong.append(it.text))
+    page.on("pageerror", lambda it: wrong.append(str(it)))
+    page.goto(file.as_uri())
+    page.wait_for_function("document.documentElement.dataset.ready", timeout=PATIENCE)
+    return page
+
+
 def main():
     asked = argparse.ArgumentParser()
     asked.add_argument("program")
@@ -173,12 +176,7 @@ def main():
                 opened.append((name, file.rename(folder / f"{len(opened)}.html")))
         each = -(-asked.runs // len(opened))
         for name, file in opened:
-            page = browser.new_page()
-            page.add_init_script(CAPTURE)
-            page.on("console", lambda it: wrong.append(it.text))
-            page.on("pageerror", lambda it: wrong.append(str(it)))
-            page.goto(file.as_uri())
-            page.wait_for_function("document.documentElement.dataset.ready", timeout=PATIENCE)
+            page = shown(browser, file, wrong)
             data = json.loads(page.text_content("#data"))
             # No other command plays a part of a team.
             for _ in range(each if data["command"] else 0):
@@ -190,12 +188,7 @@ def main():
         print(f"{runs} runs of {len(opened)} models in the browser: {records} records are the same")
         for name in ("door", "delivery", "shift"):
             file = next(it[1] for it in opened if it[0] == name)
-            page = browser.new_page()
-            page.add_init_script(CAPTURE)
-            page.on("console", lambda it: wrong.append(it.text))
-            page.on("pageerror", lambda it: wrong.append(str(it)))
-            page.goto(file.as_uri())
-            page.wait_for_function("document.documentElement.dataset.ready", timeout=PATIENCE)
+            page = shown(browser, file, wrong)
             said = page.evaluate(CLICKS, asked.clicks)
             is_broken = page.evaluate("!document.getElementById('broken').hidden")
             assert not is_broken, page.text_content("#broken")

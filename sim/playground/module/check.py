@@ -20,6 +20,8 @@ import tempfile
 
 import wasmtime
 
+from subjects import subjects
+
 REASONS = ["", "on_purpose", "not_enabled", "too_early", "too_late", "full"]
 WORDS = 12
 
@@ -222,16 +224,6 @@ def first(mine, theirs):
         if pair[0] != pair[1]:
             return f"record {at}: {pair}"
     return f"{len(mine)} and {len(theirs)} records"
-
-
-def subjects(program):
-    """The name of each model, the least of each family, each robot and its missions."""
-    said = lambda *words: json.loads(subprocess.check_output([program, *words, "--json"]))
-    for model in said("models")["models"]:
-        numbers = model.get("numbers")
-        yield f"{model['name']}:{max(2, numbers['least'])}" if numbers else model["name"]
-    listed = said("list")
-    yield from (it["name"] for kind in ("robots", "missions", "scenarios") for it in listed[kind])
 
 
 def main():

@@ -21,7 +21,7 @@ type Pairs = BTreeMap<(usize, usize), u32>;
 pub struct Plain {
     /// States between ticks.
     pub states: usize,
-    /// How a run can end, and the fewest ticks.
+    /// The ends of a run, and the fewest ticks.
     pub ends: BTreeMap<End, u32>,
     /// States from which no end can be reached.
     pub stuck: usize,

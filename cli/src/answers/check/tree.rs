@@ -139,7 +139,7 @@ pub(crate) struct TreeSpaceAnswer {
     pub(crate) edges: usize,
     /// States after merging what no ticks can tell apart; none where a limit was met.
     pub(crate) minimal: Option<usize>,
-    /// How a run can end, and the fewest ticks.
+    /// The ends of a run, and the fewest ticks.
     pub(crate) ends: std::collections::BTreeMap<String, u32>,
     /// States from which no end can be reached.
     pub(crate) stuck: usize,

@@ -31,7 +31,7 @@ impl Crowd {
     }
 }
 
-/// What bids take delays to be.
+/// The delay of a drive, as bids take it to be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Travel {
     /// A drive is never delayed.

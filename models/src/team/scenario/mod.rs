@@ -419,7 +419,7 @@ pub struct Scenario {
     pub second_best: bool,
     /// What bids take the reliability of capabilities to be.
     pub trust: Trust,
-    /// What bids take delays on crowded ways to be.
+    /// Delays on crowded ways, as bids take them to be.
     pub travel: Travel,
     /// The seed of the random numbers of the network, and of uses that fail.
     pub seed: u64,

@@ -292,7 +292,7 @@ fn auction(fields: Result<Option<Fields<'_>>, Reported>, names: &Names) -> Optio
     })
 }
 
-/// What bids take delays to be: `travel`, and for a quantile `travel_permille`.
+/// Reads the delays that bids count with: `travel`, and for a quantile `travel_permille`.
 fn travel(fields: &mut Fields<'_>) -> Result<Travel, Reported> {
     let usual = Travel::Quantile(900);
     let known = [("plain", Travel::Plain), ("mean", Travel::Mean), ("quantile", usual)];

@@ -47,7 +47,7 @@ pub(super) struct Moving {
     pub(super) even: bool,
     /// People stand in its way until then.
     pub(super) held_until: u64,
-    /// Its battery is empty.
+    /// The battery is empty.
     pub(super) empty: bool,
 }
 

@@ -50,7 +50,7 @@ fn a_drive_through_a_crowd_takes_as_much_longer_as_the_file_says() {
     assert!(crowded.energy_mj > free.energy_mj);
 }
 
-/// Who the first task goes to.
+/// Returns the robot that gets the first task.
 fn winner(scenario: &Scenario, travel: Travel) -> usize {
     let (_, records) = run_recorded(&Scenario { travel, ..scenario.clone() });
     let award = records.iter().find_map(|it| match it {

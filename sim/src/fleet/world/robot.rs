@@ -24,7 +24,7 @@ pub(super) struct Agent {
     pub(super) passages: Passages,
     /// The charge of its battery; `None` where nobody counts it.
     pub(super) charge: Option<Charge>,
-    /// What it does for itself while it is free.
+    /// The errand of its own while it is free.
     pub(super) errand: Option<Errand>,
     /// The spot where it stands, or began to drive.
     pub(super) spot: Spot,

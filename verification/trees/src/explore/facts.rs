@@ -40,7 +40,7 @@ pub struct Facts {
     pub questions: usize,
     /// Edges of the graph.
     pub edges: usize,
-    /// How a run can end, and the fewest ticks.
+    /// The ends of a run, and the fewest ticks.
     pub ends: BTreeMap<End, u32>,
     /// States from which no end can be reached; 0 where not all was explored.
     pub stuck: usize,
