@@ -1,5 +1,6 @@
 //! Behaviour trees: what the commands on models do with the XML of BehaviorTree.CPP.
 
+mod beside;
 mod certificate;
 pub(crate) mod check;
 mod conform;
@@ -15,6 +16,7 @@ use crate::file_errors::FileErrors;
 use crate::input;
 use crate::kind::{self, Kind};
 use crate::output::Screen;
+use beside::Bindings;
 use cotama_trees::diagnostic::{Diagnostic, Refusal, Severity};
 use cotama_trees::explore::Limits;
 use cotama_trees::kinds::{LeafKind, read_leaves};
@@ -70,12 +72,13 @@ struct Source {
 
 /// Reads a tree.
 fn load(path: &str, args: &TreeArgs) -> Result<Loaded, Failure> {
-    Ok(source(path, args)?.loaded)
+    Ok(source(path, args, None)?.loaded)
 }
 
-/// Reads a tree, and keeps its files.
-fn source(path: &str, args: &TreeArgs) -> Result<Source, Failure> {
-    let leaves = match &args.leaves {
+/// Reads a tree, and keeps its files; with a period the time of a supervisor counts.
+fn source(path: &str, args: &TreeArgs, period: Option<u32>) -> Result<Source, Failure> {
+    let bindings = Bindings::read(args)?;
+    let mut leaves = match &args.leaves {
         Some(file) => {
             let text = input::text(file, "a file of leaves", TREE_BYTES)?;
             read_leaves(&text).map_err(|(line, why)| {
@@ -86,6 +89,9 @@ fn source(path: &str, args: &TreeArgs) -> Result<Source, Failure> {
         }
         None => Vec::new(),
     };
+    if let Some(it) = &bindings {
+        leaves.extend(it.leaves(&leaves));
+    }
     let mut search = Vec::new();
     for folder in &args.search {
         search.extend(files(folder)?);
@@ -112,7 +118,10 @@ fn source(path: &str, args: &TreeArgs) -> Result<Source, Failure> {
         files.insert(path.to_owned(), bytes.clone());
         Ok(bytes)
     };
-    let loaded = read(path, &mut from, &options).map_err(|it| refused(&it))?;
+    let mut loaded = read(path, &mut from, &options).map_err(|it| refused(&it))?;
+    if let Some(it) = &bindings {
+        it.bind(&mut loaded.tree, period)?;
+    }
     Ok(Source { loaded, options, files })
 }
 

@@ -195,3 +195,41 @@ fn at_a_period_timers_count_and_differences_are_told() {
     assert!(notes.contains(bound), "{notes}");
     assert!(notes.contains("can-succeed: false, with free timers true"), "{notes}");
 }
+
+#[test]
+fn a_supervisor_beside_a_tree_refuses_a_start_and_is_seen_in_each_tick() {
+    let folder = folder("trees_supervised");
+    let tree = TREE.replace("FollowPath path=\"{path}\"", "Drive name=\"ToA\"");
+    folder.write("tree.xml", tree.replace("Spin", "Drive name=\"ToB\""));
+    let drive = "Drive starts start_drive succeeds upon ended fails at HandOver or after abort\n";
+    folder.write("drive.txt", drive);
+    let beside = ["--with", "local", "--bind", "drive.txt"];
+    let with = |more: &[&str]| folder.cotama(&[more, &beside].concat());
+    let answer = with(&["check", "tree.xml", "--json"]).json(0);
+    validate("check-tree", &answer);
+    let refused = row(&answer, "refused");
+    assert_eq!((&refused["level"], &refused["nodes"][0]), (&"warning".into(), &"ToA".into()));
+    let ticks = refused["trace"].as_array().unwrap();
+    assert_eq!(ticks[0]["events"], serde_json::json!(["ToA>start_drive", "ToA=R"]));
+    assert_eq!(ticks[0]["marked"], serde_json::json!(["Planning", "camera", "wifi"]));
+    assert_eq!(with(&["check", "tree.xml", "--deny", "warnings"]).code, Some(1));
+    let played = with(&["simulate", "tree.xml", "--json", "path_ready", "-"]).json(0);
+    validate("simulate-tree", &played);
+    assert_eq!(played["ticks"][0]["marked"][0], "Planning");
+    assert_eq!(played["ticks"][1]["events"][0], "(path_ready)");
+    let space = with(&["statespace", "tree.xml", "--json"]).json(0);
+    assert_eq!(space["complete"], true);
+    for (more, said) in [
+        (["--certificate", "c.json"], "no certificate holds a supervisor"),
+        (["--property", "AG !net.Idel"], "no place Idel; did you mean Idle?"),
+    ] {
+        let ended = with(&[&["check", "tree.xml"], more.as_slice()].concat());
+        assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+        assert!(ended.stderr.contains(said), "{}", ended.stderr);
+    }
+    folder.write("drive.txt", "Drive starts strat_drive succeeds at End\n");
+    let ended = with(&["check", "tree.xml"]);
+    assert!(ended.stderr.contains("no event strat_drive; did you mean start_drive?"));
+    assert!(ended.stderr.contains("drive.txt:1:14"), "{}", ended.stderr);
+    assert_eq!(folder.cotama(&["check", "tree.xml", "--with", "local"]).code, Some(2));
+}

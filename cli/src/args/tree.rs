@@ -23,6 +23,12 @@ pub(crate) struct TreeArgs {
     /// Takes leaves that nothing describes as leaves of this kind
     #[arg(long, value_enum, value_name = "KIND")]
     pub(crate) unknown: Option<LeafName>,
+    /// A supervisor beside the tree: a net or a system, by name or file
+    #[arg(long, value_name = "MODEL", requires = "bind")]
+    pub(crate) with: Option<String>,
+    /// Which leaves act on the supervisor: lines as `Open starts Call succeeds at Open`
+    #[arg(long, value_name = "FILE", requires = "with")]
+    pub(crate) bind: Option<String>,
 }
 
 /// Questions about a behaviour tree.
@@ -86,6 +92,7 @@ impl TreeArgs {
             ("--models", !self.models.is_empty()),
             ("--search", !self.search.is_empty()),
             ("--unknown", self.unknown.is_some()),
+            ("--with", self.with.is_some()),
         ];
         all.into_iter().find(|it| it.1).map(|it| it.0)
     }

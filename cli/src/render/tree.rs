@@ -11,6 +11,9 @@ use std::fmt::Write;
 /// Most ticks of a run on the screen.
 const TICKS: usize = 40;
 
+/// Most marked places of a supervisor on the screen.
+const MARKED: usize = 6;
+
 /// What was found, the worst first; then what was asked and is so.
 pub(crate) fn check(answer: &TreeAnswer, notes: bool, width: usize) -> String {
     let states = answer.results.first().map_or(0, |it| it.states);
@@ -92,7 +95,11 @@ fn finding(row: &TreeRow, width: usize, text: &mut String) {
 /// One tick in a line.
 pub(crate) fn tick(row: &TreeTickRow) -> String {
     let events = if row.events.is_empty() { "-".to_owned() } else { row.events.join(" ") };
-    format!("{:>4}  {} -> {}\n", row.tick, visible(&events), visible(&row.status))
+    let marked = match row.marked.len() {
+        1..=MARKED => format!("  at {}", visible(&row.marked.join(", "))),
+        _ => String::new(),
+    };
+    format!("{:>4}  {} -> {}{marked}\n", row.tick, visible(&events), visible(&row.status))
 }
 
 /// Whether recorded runs are those of a tree.

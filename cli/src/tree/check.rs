@@ -24,11 +24,15 @@ const ENGINE: &str = "explicit";
 /// Answers all questions about a tree.
 pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
     refuse_others(args)?;
+    if args.certificate.is_some() && args.tree.with.is_some() {
+        let failure = Failure::new("--certificate: no certificate holds a supervisor");
+        return Err(failure.help("leave --certificate out, or --with and --bind"));
+    }
     if let Some(folder) = &args.wishes.html {
         output::report(folder)?;
     }
     let begun = Instant::now();
-    let source = source(&args.model, &args.tree)?;
+    let source = source(&args.model, &args.tree, args.wishes.period)?;
     let loaded = &source.loaded;
     sound(loaded)?;
     let tree = &loaded.tree;
@@ -182,7 +186,8 @@ fn timed(
 /// Returns what is free.
 fn free(tree: &Tree, timed: bool) -> String {
     let count = |is: &dyn Fn(&Kind) -> bool| tree.nodes.iter().filter(|it| is(&it.kind)).count();
-    let leaves = count(&|it| matches!(it, Kind::Leaf(_)));
+    let bound = tree.bonds.iter().flat_map(|it| &it.of).flatten().count();
+    let leaves = count(&|it| matches!(it, Kind::Leaf(_))) - bound;
     let latches = count(&|it| {
         matches!(it, Kind::Leaf(LeafKind::Latch | LeafKind::FirstSuccess | LeafKind::FirstFailure))
     });
@@ -202,6 +207,18 @@ fn free(tree: &Tree, timed: bool) -> String {
     format!("free: {}; what leaves write is not followed", all.join(", "))
 }
 
+/// Returns what a supervisor does by itself.
+fn beside(tree: &Tree) -> Option<String> {
+    let bonds = tree.bonds.as_deref()?;
+    let moves: Vec<_> = bonds.moves.iter().map(|it| bonds.net.events[*it].as_str()).collect();
+    let (name, states) = (&bonds.net.name, bonds.net.states);
+    Some(match moves.len() {
+        0 => format!("beside it: {name}, {states} states, which does nothing by itself"),
+        1..=12 => format!("beside it: {name}, {states} states; by itself: {}", moves.join(", ")),
+        more => format!("beside it: {name}, {states} states; {more} events come by themselves"),
+    })
+}
+
 const FAIR: &str = "fair: actions that run end or are halted, gates open again and again";
 
 fn ticks(tree: &Tree, run: &Run) -> Vec<TreeTickRow> {
@@ -211,6 +228,7 @@ fn ticks(tree: &Tree, run: &Run) -> Vec<TreeTickRow> {
         events: it.events,
         status: it.status,
         blackboard: it.blackboard,
+        marked: it.marked,
     })
     .collect()
 }
@@ -278,7 +296,7 @@ fn answer(model: &str, loaded: &Loaded, report: &Report, seconds: f64) -> TreeAn
         model: model.to_owned(),
         tree: tree.name.clone(),
         nodes: tree.nodes.len(),
-        notes: vec![free(tree, false), FAIR.to_owned()],
+        notes: [free(tree, false), FAIR.to_owned()].into_iter().chain(beside(tree)).collect(),
         warnings: warnings.collect(),
         unused_assumptions: report.unused.clone(),
         complete: report.complete,

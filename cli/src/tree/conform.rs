@@ -13,6 +13,10 @@ use cotama_trees::conform::{conform as compare, read};
 /// Compares recorded runs with a tree.
 pub(crate) fn conform(args: &ConformArgs, screen: &Screen) -> Result<Exit, Failure> {
     only(&[("--tolerance", args.tolerance != 0)])?;
+    if args.tree.with.is_some() {
+        let failure = Failure::new("--with: recorded runs have no moves of a supervisor");
+        return Err(failure.help("leave --with and --bind out"));
+    }
     let loaded = load(&args.model.model, &args.tree)?;
     let text = input::text(&args.trace, "a trace of a tree", input::TRACE_BYTES)?;
     let rows = read(&text).map_err(|(line, why)| {

@@ -49,6 +49,7 @@ impl Game<'_> {
                 events: events.iter().map(|it| it.shown(self.tree)).collect(),
                 status,
                 blackboard: self.machine.blackboard(),
+                marked: self.machine.marked().into_iter().map(str::to_owned).collect(),
             });
         }
         self.ended = true;
@@ -56,10 +57,20 @@ impl Game<'_> {
     }
 }
 
-fn asked(tree: &Tree, question: &Question) -> String {
-    let letters: Vec<_> = question.replies.iter().map(|it| it.letter().to_string()).collect();
+/// Returns the word for a reply: a letter, or the name of a supervisor's move.
+fn word(tree: &Tree, reply: Reply) -> String {
+    match (reply, tree.bonds.as_deref()) {
+        (Reply::Net(at), Some(bonds)) => bonds.of_move(at).to_owned(),
+        _ => reply.letter().to_string(),
+    }
+}
+
+fn asked(machine: &Machine, question: &Question) -> String {
+    let tree = machine.tree();
+    let replies = question.replies.iter().filter(|it| !machine.is_idle(**it));
+    let words = replies.map(|it| word(tree, *it)).collect::<Vec<_>>();
     let label = tree.shown(question.node);
-    format!("{label}{} {}", question.how.sign(), letters.join(" "))
+    format!("{label}{} {}", question.how.sign(), words.join(" "))
 }
 
 /// Plays a tree with answers from the command line, from standard input, or by hand.
@@ -90,37 +101,42 @@ pub(crate) fn simulate(args: &SimulateArgs, screen: &Screen) -> Result<Exit, Fai
                 screen.print(&render::tree::tick(row))?;
             }
             shown = game.ticks.len();
-            screen.print(&format!("{}? ", asked(tree, &question)))?;
+            screen.print(&format!("{}? ", asked(&game.machine, &question)))?;
         }
-        let word = match words.pop_front() {
-            Some(word) => word,
+        let said = match words.pop_front() {
+            Some(said) => said,
             None if by_hand => match input::answer()? {
                 Some(line) => line,
                 None => break,
             },
             None => {
-                waits = Some(asked(tree, &question));
+                waits = Some(asked(&game.machine, &question));
                 break;
             }
         };
         // `LEAF=S` says for which question an answer is meant.
-        let (of, letter) = word.split_once('=').unwrap_or(("", &word));
-        let reply = letter.chars().next().filter(|_| letter.chars().count() == 1);
-        let reply = reply.and_then(|it| Reply::of_letter(it.to_ascii_uppercase()));
+        let (of, letter) = said.split_once('=').unwrap_or(("", &said));
+        let is_said = |it: &Reply| match it {
+            Reply::Net(_) | Reply::Rest => word(tree, *it) == letter,
+            _ => it.letter().to_string() == letter.to_ascii_uppercase(),
+        };
+        let reply = question.replies.iter().copied().find(is_said);
         let is_meant = of.is_empty() || tree.find(of) == Some(question.node);
-        match reply.filter(|it| is_meant && question.replies.contains(it)) {
+        match reply.filter(|_| is_meant) {
             Some(reply) => game.stop = Some(game.machine.reply(reply)),
-            None if by_hand && matches!(word.as_str(), "q" | "quit") => break,
+            None if by_hand && matches!(said.as_str(), "q" | "quit") => break,
             None if by_hand => screen.note("one of the letters, or quit"),
             None => {
-                let message = format!("`{word}` is no answer to {}", asked(tree, &question));
-                return Err(Failure::new(message)
-                    .help("S success, F failure, R running, K skipped; T open, N closed"));
+                let message =
+                    format!("`{said}` is no answer to {}", asked(&game.machine, &question));
+                return Err(Failure::new(message).help(
+                    "S success, F failure, R running, K skipped; T open, N closed; a move, or -",
+                ));
             }
         }
     }
-    if let Some(word) = words.front() {
-        let message = format!("`{word}` is one answer too many: the run has ended");
+    if let Some(said) = words.front() {
+        let message = format!("`{said}` is one answer too many: the run has ended");
         return Err(Failure::new(message).help("leave it out"));
     }
     let answer = TreeSimulateAnswer {

@@ -5,7 +5,7 @@
 
 use crate::machine::{Machine, Reply, Stop};
 use crate::script::parse;
-use crate::tree::Tree;
+use crate::tree::{NET, Tree};
 use std::collections::VecDeque;
 
 /// Ticks of the root within one `tickOnce`, after which it counts as spinning.
@@ -231,7 +231,7 @@ fn step(machine: &mut Machine, row: &Row) -> Result<(String, String), (String, S
             }
             parts.push(shown(machine));
             let letters = question.replies.iter().map(|it| it.letter().to_string());
-            let label = &tree.nodes[question.node].label;
+            let label = tree.nodes.get(question.node).map_or(NET, |it| &it.label);
             let letters = letters.collect::<Vec<_>>().join(" ");
             let asked = format!("{label}{} with one of {letters}", question.how.sign());
             return Err((joined(&parts), asked));

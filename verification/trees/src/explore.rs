@@ -6,6 +6,7 @@
 //! fresh tree and goes to the first answer of the root other than RUNNING.
 
 mod assume;
+mod condition;
 mod cycles;
 mod facts;
 mod graph;
@@ -17,15 +18,17 @@ mod property;
 mod runs;
 mod unwritten;
 
-use crate::machine::{Event, How, Machine, Question, Reply, Status, Stop};
+use crate::machine::{Event, How, Machine, Question, Reply, Status, Stop, Vain};
+use crate::supervisor::Part;
 use crate::tree::{Answer, Tree};
 pub use assume::{Assumption, Assumptions, parse_assumption};
-pub use facts::{Early, Facts, Pair};
+pub use condition::Condition;
+pub use facts::{Early, Facts, InVain, Pair};
 use graph::{Edge, MAX_SEQUENCES, WAKES, What, code};
 pub use graph::{End, Point};
 use keys::{Keys, MAX_KEYS, Sequences};
 use pack::Pack;
-pub use property::{Condition, Property, Refused, Verdict, check_property, parse_property};
+pub use property::{Property, Refused, Verdict, check_property, parse_property};
 pub use runs::{Run, Step};
 use std::collections::{BTreeMap, VecDeque};
 
@@ -76,6 +79,8 @@ pub struct Space<'t> {
     pub(crate) both: BTreeMap<(usize, usize), Seen>,
     /// An action that starts, and one that still runs.
     pub(crate) overlap: BTreeMap<(usize, usize), Seen>,
+    /// Events that leaves offer to the supervisor in vain.
+    pub(crate) refused: BTreeMap<(usize, Part), (Vain, Seen)>,
     /// Why exceptions were thrown, by end, the first time.
     pub(crate) causes: BTreeMap<End, String>,
     complete: bool,
@@ -128,6 +133,7 @@ impl<'t> Space<'t> {
             lost: BTreeMap::new(),
             both: BTreeMap::new(),
             overlap: BTreeMap::new(),
+            refused: BTreeMap::new(),
             causes: BTreeMap::new(),
             complete: true,
             ends: Vec::new(),
@@ -156,7 +162,7 @@ impl<'t> Space<'t> {
     }
 
     fn asks(&self) -> u32 {
-        self.tree.nodes.len() as u32
+        self.tree.nodes.len() as u32 + self.tree.bonds.is_some() as u32
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -208,7 +214,7 @@ impl<'t> Space<'t> {
         self.pack.store(&mut self.machine, 0);
         self.add(0, (0, 0), 0);
         let mut waiting = VecDeque::from([0_u32]);
-        let mut work: Vec<u32> = Vec::new();
+        let mut work = VecDeque::new();
         let mut base = Vec::new();
         let mut states = 0;
         while let Some(state) = waiting.pop_front() {
@@ -217,8 +223,10 @@ impl<'t> Space<'t> {
                 self.complete = false;
                 return;
             }
-            work.push(state);
-            while let Some(point) = work.pop() {
+            work.push_back(state);
+            // With a supervisor there are many ways to one point before a tick: the shortest first.
+            let first = self.tree.bonds.is_some();
+            while let Some(point) = if first { work.pop_front() } else { work.pop_back() } {
                 let full = self.sequences.len() >= MAX_SEQUENCES || self.pack.overflows;
                 if self.len() > limits.nodes.min(MAX_KEYS - 256)
                     || self.bytes() > limits.bytes
@@ -243,7 +251,7 @@ impl<'t> Space<'t> {
         skips: bool,
         base: &mut Vec<u32>,
         waiting: &mut VecDeque<u32>,
-        work: &mut Vec<u32>,
+        work: &mut VecDeque<u32>,
     ) {
         self.pack.load(self.keys.get(point), &mut self.machine);
         self.first[point] = self.edges.len() as u32;
@@ -254,6 +262,7 @@ impl<'t> Space<'t> {
             self.machine.wake = false;
             self.machine.events.clear();
             let stop = self.machine.tick();
+            self.bound_written();
             return self.arrive(point, None, stop, waiting, work);
         };
         base.clone_from(&self.machine.cells);
@@ -271,11 +280,27 @@ impl<'t> Space<'t> {
             self.machine.wake = wake;
             self.machine.at = Some(question.node);
             self.machine.events.clear();
+            if self.machine.is_idle(reply) {
+                continue;
+            }
             if reply == Reply::Leaf(Answer::Success) {
                 self.assumptions.written(question.node, &mut self.machine.cells);
             }
             let stop = self.machine.reply(reply);
+            self.bound_written();
             self.arrive(point, Some(reply), stop, waiting, work);
+        }
+    }
+
+    /// Notes what leaves have written that act on the supervisor, and are not asked.
+    fn bound_written(&mut self) {
+        if self.tree.bonds.is_none() {
+            return;
+        }
+        for event in &self.machine.events {
+            if let Event::Itself(node, Answer::Success) = *event {
+                self.assumptions.written(node as usize, &mut self.machine.cells);
+            }
         }
     }
 
@@ -286,7 +311,7 @@ impl<'t> Space<'t> {
         reply: Option<Reply>,
         stop: Stop,
         waiting: &mut VecDeque<u32>,
-        work: &mut Vec<u32>,
+        work: &mut VecDeque<u32>,
     ) {
         let asks = self.asks();
         let ticks = self.level[from] + 1;
@@ -302,6 +327,12 @@ impl<'t> Space<'t> {
         let seen = Seen { ticks, node: from as u32, edge: self.edges.len() as u32 };
         for (child, node) in std::mem::take(&mut self.machine.lost) {
             self.lost.entry((child as usize, node as usize)).or_insert(seen);
+        }
+        for it in std::mem::take(&mut self.machine.refused) {
+            self.refused.entry((it.node, it.part)).or_insert((it, seen));
+        }
+        for (node, other) in std::mem::take(&mut self.machine.begun) {
+            self.overlap.entry((node as usize, other as usize)).or_insert(seen);
         }
         let events = self.sequences.number(&self.machine.events);
         // Ends are few, and met by a third of all edges.
@@ -331,7 +362,7 @@ impl<'t> Space<'t> {
         }
         match stop {
             Stop::Asked(question) => {
-                work.push(target);
+                work.push_back(target);
                 self.look_at_question(question, seen);
             }
             Stop::Answered(Answer::Running) => {

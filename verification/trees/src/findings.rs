@@ -2,6 +2,7 @@
 
 use crate::explore::{Assumptions, End, Facts, Limits, Pair, Run, Space};
 use crate::kinds::LeafKind;
+use crate::supervisor::Part;
 use crate::tree::{Answer, Kind, Number, Tree};
 
 /// Weight of a finding.
@@ -72,6 +73,10 @@ pub const QUESTIONS: [(&str, &str); 14] = [
     ("read-before-written", "no entry is read before it is written"),
 ];
 
+/// The question that is asked where a supervisor stands beside the tree: name, wish.
+pub const OF_SUPERVISORS: (&str, &str) =
+    ("refused", "the supervisor accepts what leaves start and halt");
+
 /// Further questions and options.
 #[derive(Clone, Debug, Default)]
 pub struct Wishes {
@@ -111,11 +116,13 @@ pub fn check(tree: &Tree, wishes: &Wishes, limits: Limits) -> Report {
     found.lost();
     found.reached(complete);
     found.together(&wishes.exclusive);
+    found.refused();
     let mut findings = found.list;
     findings.extend(halting(&mut space));
     findings.sort_by_key(|it| std::cmp::Reverse(it.level));
     // A limit leaves open what was not found; what needs all runs was not looked for.
-    let asked = QUESTIONS.iter().map(|&(question, wish)| {
+    let of_supervisors = tree.bonds.as_ref().map(|_| &OF_SUPERVISORS);
+    let asked = QUESTIONS.iter().chain(of_supervisors).map(|&(question, wish)| {
         let found = findings.iter().any(|it| it.question == question);
         let holds = if found { Some(false) } else { complete.then_some(true) };
         Asked { question, wish, holds }
@@ -278,6 +285,10 @@ impl Found<'_, '_> {
                      a sibling runs: put it below a Sequence or PipelineSequence, or use \
                      GlobalUpdatedGoal"
                 }
+                _ if tree.bond(node).is_some() => {
+                    "no run of the supervisor leads there: look at what the leaf `succeeds` by, \
+                     or `reads`"
+                }
                 _ => "an assumption or a guard forbids it",
             };
             self.add("never-succeeds", Level::Warning, &[node], message, help, None);
@@ -296,6 +307,37 @@ impl Found<'_, '_> {
             };
             let help = "without a recovery that succeeds the node only delays its failure";
             self.add("recovery", Level::Warning, &[node, *recovery], message, help, None);
+        }
+    }
+
+    /// Tells which leaves offer an event in vain.
+    fn refused(&mut self) {
+        let Some(bonds) = self.tree.bonds.as_deref() else { return };
+        for it in &self.facts.refused {
+            let (node, part) = (it.vain.node, it.vain.part);
+            let label = self.tree.shown(node);
+            let event = bonds.offered(node, part).unwrap_or_default();
+            let places = bonds.net.marked(it.vain.state);
+            let at = match places.len() {
+                0 => "where no place is marked".to_owned(),
+                1..=6 => format!("at {}", places.join(", ")),
+                more => format!("at {} and {} more", places[..5].join(", "), more - 5),
+            };
+            let (verb, help) = match part {
+                Part::Starts => (
+                    "started by",
+                    "the leaf answers FAILURE there: wait until the supervisor is ready, halt what \
+                     still runs by its event, or write `tries` if this is meant",
+                ),
+                Part::Halts => (
+                    "halted by",
+                    "the supervisor goes on although the tree has halted the leaf: give it an \
+                     event that stops it there",
+                ),
+            };
+            let message = format!("{label} is {verb} {event}, which the supervisor ignores {at}");
+            let run = Some(self.space.run_of_in_vain(it));
+            self.add("refused", Level::Warning, &[node], message, help, run);
         }
     }
 

@@ -6,6 +6,7 @@
 //! Machine   -> Accepted  conform   a recorded run is one of the tree, or departs in a row
 //! Machine   -> Space     explore   all runs when the world answers as it likes, breadth first
 //! Machine   -> Plain     plain     the same walked plainly, to compare and to verify certificates
+//! System    -> Bonds     supervisor  a supervisor beside the tree, and which leaves act on it
 //! Space     -> Facts     explore   how it ends, what is lost, what never ends, with shortest runs
 //! ```
 //!
@@ -49,5 +50,6 @@ pub mod reader;
 pub mod replay;
 pub mod script;
 mod signature;
+pub mod supervisor;
 pub mod tree;
 mod xml;

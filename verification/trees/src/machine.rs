@@ -5,6 +5,7 @@
 //! no calls within calls: a node knows from its cells for which child it waits, so that a machine
 //! can be put aside in the middle of a tick as a few words, and be taken up again.
 
+mod beside;
 mod boards;
 mod cells;
 mod controls;
@@ -17,11 +18,12 @@ mod timers;
 mod words;
 
 use crate::tree::{Answer, Kind, Tree};
+pub use beside::Vain;
 pub(crate) use boards::Store;
 pub(crate) use cells::Layout;
 use std::fmt;
 use timers::Beat;
-pub use words::{Event, How, Question, Reply, Status, Stop, Thrown};
+pub use words::{Event, How, MOST_MOVES, Question, Reply, Status, Stop, Thrown};
 
 /// The cause of an exception, before a node is named.
 pub(crate) struct Fault(pub(crate) String);
@@ -80,6 +82,12 @@ pub struct Machine<'t> {
     pub(crate) watched: Vec<Option<usize>>,
     /// Time between two ticks, where they come at a period.
     beat: Option<Beat>,
+    /// Cells of the supervisor.
+    beside: Option<beside::Beside>,
+    /// Events that leaves offered to the supervisor in vain, the latest.
+    pub(crate) refused: Vec<Vain>,
+    /// Leaves that started in the supervisor, each with an action that ran, the latest.
+    pub(crate) begun: Vec<(u32, u32)>,
 }
 
 impl<'t> Machine<'t> {
@@ -102,6 +110,9 @@ impl<'t> Machine<'t> {
             lost: Vec::new(),
             watched: vec![None; tree.nodes.len()],
             beat: None,
+            beside: None,
+            refused: Vec::new(),
+            begun: Vec::new(),
         };
         for (node, it) in tree.nodes.iter().enumerate() {
             if matches!(it.kind, Kind::PathLongerOnApproach | Kind::SingleTrigger) {
@@ -109,6 +120,7 @@ impl<'t> Machine<'t> {
             }
         }
         machine.fill();
+        machine.beside();
         machine
     }
 
@@ -138,9 +150,14 @@ impl<'t> Machine<'t> {
         Status::of_code(self.cells[node])
     }
 
-    /// Makes a cell for each node, which notes its answer of the tick.
+    /// Makes a cell for each node, which notes its answer of the tick; the largest number is
+    /// the supervisor.
     pub(crate) fn watch(&mut self, nodes: &[usize]) {
         for &node in nodes {
+            if node == usize::MAX {
+                self.watch_net();
+                continue;
+            }
             self.watched[node] = Some(self.cells.len());
             self.cells.push(0);
             self.layout.widths.push(3);
@@ -190,7 +207,8 @@ impl<'t> Machine<'t> {
 
     /// Ticks the root once, up to the first question.
     pub fn tick(&mut self) -> Stop {
-        self.run(Cursor::Timers(None))
+        self.pass();
+        self.ask_net().unwrap_or_else(|| self.run(Cursor::Timers(None)))
     }
 
     /// Gives the reply to the question at which the tick stopped.
@@ -203,7 +221,15 @@ impl<'t> Machine<'t> {
         assert!(question.replies.contains(&reply), "a reply that is allowed");
         let node = question.node;
         self.at = None;
-        self.events.push(Event::Asked(node as u32, question.how, reply));
+        match reply {
+            Reply::Net(at) => {
+                self.moved(at);
+                let asked = self.ask_net();
+                return asked.unwrap_or_else(|| self.reply_rest());
+            }
+            Reply::Rest => return self.reply_rest(),
+            _ => self.events.push(Event::Asked(node as u32, question.how, reply)),
+        }
         match (&self.tree.nodes[node].kind, reply) {
             (Kind::Delay { .. } | Kind::Timeout { .. } | Kind::Sleep { .. }, _) => {
                 let place = (self.date(node), node);
@@ -215,16 +241,25 @@ impl<'t> Machine<'t> {
                 self.run(Cursor::Timers(Some(place)))
             }
             (_, Reply::Leaf(answer)) => self.run(Cursor::Leave(node, answer)),
-            (_, Reply::Yes | Reply::No) => {
+            _ => {
                 let step = decorators::looked(self, node, reply == Reply::Yes);
                 self.step(node, &step)
             }
         }
     }
 
+    /// Goes on when the supervisor has done what it does.
+    fn reply_rest(&mut self) -> Stop {
+        let ticks = self.take_gone_off();
+        self.run(if ticks { Cursor::Enter(0) } else { Cursor::Timers(None) })
+    }
+
     /// Returns the question at which the tick stopped.
     pub fn question(&self) -> Option<Question> {
         let node = self.at?;
+        if node == self.tree.nodes.len() {
+            return Some(self.question_of_net());
+        }
         Some(match self.tree.nodes[node].kind {
             Kind::Leaf(kind) => leaves::question(self, node, kind),
             _ => Question { node, how: How::Looks, replies: &[Reply::Yes, Reply::No] },
@@ -247,6 +282,12 @@ impl<'t> Machine<'t> {
                     Ok(Some(node)) => return self.ask(node),
                     Ok(None) => {
                         self.beat();
+                        if self.has_gone_off()
+                            && let Some(asked) = self.ask_net()
+                        {
+                            return asked;
+                        }
+                        self.take_gone_off();
                         Cursor::Enter(0)
                     }
                     Err(fault) => return thrown(None, fault),

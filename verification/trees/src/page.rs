@@ -72,7 +72,7 @@ fn section(tree: &Tree, it: &Section, out: &mut String) {
         if run.again_from.is_some() {
             out.push_str("<p>From the dashed line on it goes on so for ever.</p>");
         }
-        let board = frames.last().map_or("", |it| it.blackboard.as_str());
+        let board = frames.last().map_or(String::new(), beside);
         let _ = writeln!(out, "<pre>{}</pre></div></div>", escaped(&board.replace(';', "\n")));
     }
     out.push_str("</section>\n");
@@ -92,6 +92,14 @@ fn rows(tree: &Tree, frame: Option<&Frame>, out: &mut String) {
             sign(&node.kind),
             escaped(&words(node))
         );
+    }
+}
+
+/// Writes the blackboard, and the marked places of a supervisor below it.
+fn beside(frame: &Frame) -> String {
+    match frame.marked.join(", ") {
+        it if it.is_empty() => frame.blackboard.clone(),
+        it => format!("{};net at {it}", frame.blackboard),
     }
 }
 
@@ -116,7 +124,7 @@ fn json(frames: &[Frame]) -> String {
             "{{\"answers\":{},\"statuses\":{},\"blackboard\":{}}}",
             text(&it.answers),
             text(&it.statuses),
-            text(&it.blackboard)
+            text(&beside(it))
         )
     });
     format!("[{}]", all.collect::<Vec<_>>().join(","))

@@ -6,6 +6,7 @@
 
 use crate::explore::{Assumptions, Condition, End, Property};
 use crate::machine::{How, Machine, Question, Reply, Status, Stop};
+use crate::supervisor::Part;
 use crate::tree::{Answer, Tree};
 use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
 
@@ -35,6 +36,8 @@ pub struct Plain {
     pub both: Pairs,
     /// An action that starts, and one that runs.
     pub overlap: Pairs,
+    /// Leaves whose event the supervisor ignores.
+    pub refused: BTreeMap<(usize, Part), u32>,
     /// Answers of each node, as bits: SUCCESS, FAILURE, RUNNING, SKIPPED.
     pub said: Vec<u8>,
     /// Whether the condition of an own property held, and failed to hold, after some tick.
@@ -140,6 +143,8 @@ impl Walk<'_, '_> {
         (self.machine.at, self.machine.wake) = (at, wake);
         self.machine.events.clear();
         self.machine.lost.clear();
+        self.machine.refused.clear();
+        self.machine.begun.clear();
     }
 
     /// Ticks a state in all ways; returns whether there were not too many.
@@ -186,6 +191,12 @@ impl Walk<'_, '_> {
         let ticks = self.level[from] + 1;
         for (child, node) in std::mem::take(&mut self.machine.lost) {
             least(&mut self.found.lost, (child as usize, node as usize), ticks);
+        }
+        for it in std::mem::take(&mut self.machine.refused) {
+            least(&mut self.found.refused, (it.node, it.part), ticks);
+        }
+        for (node, other) in std::mem::take(&mut self.machine.begun) {
+            least(&mut self.found.overlap, (node as usize, other as usize), ticks);
         }
         let end = match stop {
             Stop::Asked(question) => {

@@ -17,6 +17,8 @@ pub struct Frame {
     pub answers: String,
     /// All entries.
     pub blackboard: String,
+    /// Places of the supervisor that are marked.
+    pub marked: Vec<String>,
     /// Whether a wake-up is pending: `tickOnce` ticks again at once.
     pub wakes: bool,
 }
@@ -70,6 +72,7 @@ pub fn frames(tree: &Tree, run: &Run) -> Result<Vec<Frame>, usize> {
             answers: said.collect(),
             statuses: (0..tree.nodes.len()).map(|it| machine.status(it).letter()).collect(),
             blackboard: machine.blackboard(),
+            marked: machine.marked().into_iter().map(str::to_owned).collect(),
             wakes: machine.wake,
         });
     }

@@ -4,6 +4,7 @@ use crate::diagnostic::Place;
 use crate::kinds::LeafKind;
 use crate::script::{Script, Value};
 use crate::signature::Family;
+use crate::supervisor::{Bond, Bonds};
 use std::collections::BTreeMap;
 
 /// An answer of a node to a tick.
@@ -221,6 +222,8 @@ pub struct Tree {
     pub types: BTreeMap<(usize, String), EntryType>,
     /// Names of the files.
     pub files: Vec<String>,
+    /// The supervisor beside it, and which leaves act on it.
+    pub bonds: Option<Box<Bonds>>,
 }
 
 /// Type of an entry.
@@ -236,10 +239,18 @@ pub enum EntryType {
     Truth,
 }
 
+/// Name of the supervisor beside a tree, in questions and properties.
+pub const NET: &str = "net";
+
 impl Tree {
+    /// Returns what binds a leaf to the supervisor.
+    pub fn bond(&self, node: usize) -> Option<&Bond> {
+        self.bonds.as_deref()?.of.get(node)?.as_ref()
+    }
+
     /// Returns the name that tells a node from all others.
     pub fn shown(&self, node: usize) -> String {
-        let it = &self.nodes[node];
+        let Some(it) = self.nodes.get(node) else { return NET.to_owned() };
         let is_named = matches!(it.kind, Kind::Leaf(_) | Kind::SubTree { .. });
         if !is_named && it.label == it.tag {
             format!("{}@{}", it.label, node + 1)

@@ -12,4 +12,5 @@ mod pictures;
 mod plain;
 mod random;
 mod skips;
+mod supervised;
 mod traces;

@@ -87,6 +87,10 @@ pub(crate) struct TreeTickRow {
     pub(crate) status: String,
     /// All entries of the blackboards.
     pub(crate) blackboard: String,
+    /// Marked places of the supervisor; left out without one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(test, schemars(default))]
+    pub(crate) marked: Vec<String>,
 }
 
 /// The answer of `cotama conform` about a behaviour tree.

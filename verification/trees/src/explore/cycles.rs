@@ -6,6 +6,7 @@
 use super::Space;
 use super::graph::What;
 use crate::machine::{Event, How, Reply};
+use crate::supervisor::Part;
 use crate::tree::Answer;
 use std::collections::{BTreeSet, VecDeque};
 
@@ -105,8 +106,12 @@ impl Space<'_> {
                 }
             }
         }
+        let supervised = self.tree.bonds.is_some();
         let whole = found.into_iter().map(|it| self.circle(it, keep, marks));
-        whole.filter(|it| !it.edges.is_empty()).collect()
+        // A supervisor may not move for ever before one tick.
+        let ticks =
+            |it: &Circle| it.points.iter().any(|at| !supervised || self.is_state(*at as usize));
+        whole.filter(|it| !it.edges.is_empty() && ticks(it)).collect()
     }
 
     /// Returns whether an edge leads from a point to itself.
@@ -161,19 +166,46 @@ impl Space<'_> {
         let mut needed = Vec::new();
         for node in self.always(circle) {
             let moves = |it: &Event| match *it {
-                Event::Asked(at, How::Starts, _) | Event::Halted(at) => at as usize == node,
+                Event::Asked(at, How::Starts, _)
+                | Event::Halted(at)
+                | Event::Offered(at, Part::Starts, _) => at as usize == node,
+                Event::Itself(at, answer) => at as usize == node && answer != Answer::Running,
                 Event::Asked(at, How::Goes, reply) => {
                     at as usize == node && reply != Reply::Leaf(Answer::Running)
                 }
                 _ => false,
             };
-            let mut all = circle.edges.iter();
-            needed.push(*all.find(|it| self.events(it.1 as usize).iter().any(moves))?);
+            let moves = |edge: usize| self.events(edge).iter().any(moves);
+            match circle.edges.iter().find(|it| moves(it.1 as usize)) {
+                Some(edge) => needed.push(*edge),
+                // What the supervisor never lets end is not assumed to.
+                None if self.tree.bond(node).is_some() && !self.may(circle, &moves) => {}
+                None => return None,
+            }
         }
         if let Some(need) = need {
             needed.push(*circle.edges.iter().find(|it| need(self, it.1 as usize))?);
         }
         Some(Circle { needed, ..circle.clone() })
+    }
+
+    /// Returns whether something can happen on a way from a circle on.
+    fn may(&self, circle: &Circle, happens: &dyn Fn(usize) -> bool) -> bool {
+        let mut known = vec![false; self.len()];
+        let mut work = circle.points.clone();
+        work.iter().for_each(|it| known[*it as usize] = true);
+        while let Some(point) = work.pop() {
+            for edge in self.out(point as usize) {
+                if happens(edge) {
+                    return true;
+                }
+                let target = self.edges[edge].target;
+                if !std::mem::replace(&mut known[target as usize], true) {
+                    work.push(target);
+                }
+            }
+        }
+        false
     }
 
     /// Returns the actions that run in all states of a circle.

@@ -5,7 +5,8 @@ use super::graph::{End, What};
 use super::runs::Run;
 use super::unwritten::Unwritten;
 use super::{Seen, Space};
-use crate::machine::{Event, How, Reply};
+use crate::machine::{Event, How, Reply, Vain};
+use crate::supervisor::Part;
 use crate::tree::Answer;
 use std::collections::BTreeMap;
 
@@ -14,6 +15,16 @@ use std::collections::BTreeMap;
 pub struct Pair {
     /// Nodes.
     pub nodes: (usize, usize),
+    /// Ticks.
+    pub ticks: u32,
+    pub(crate) seen: (u32, u32),
+}
+
+/// An event that a leaf offers to the supervisor in vain.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InVain {
+    /// The leaf, its event, and the state of the supervisor in a run with the fewest ticks.
+    pub vain: Vain,
     /// Ticks.
     pub ticks: u32,
     pub(crate) seen: (u32, u32),
@@ -54,6 +65,9 @@ pub struct Facts {
     pub both_running: Vec<Pair>,
     /// An action that starts, and one that still runs.
     pub started_while_running: Vec<Pair>,
+    /// Leaves whose event the supervisor ignored, when they start or are halted: the state of the
+    /// supervisor, and how it comes about.
+    pub refused: Vec<InVain>,
     /// A child, and the control node that fails upon its SUCCESS.
     pub success_lost: Vec<Pair>,
     /// Nodes that are never ticked.
@@ -76,12 +90,14 @@ fn ends(event: Event, node: usize) -> bool {
         Event::Asked(at, How::Starts | How::Goes, Reply::Leaf(answer)) => {
             at as usize == node && answer.is_done()
         }
+        Event::Itself(at, answer) => at as usize == node && answer.is_done(),
         _ => false,
     }
 }
 
 fn begins(event: Event, node: usize) -> bool {
     event == Event::Asked(node as u32, How::Starts, Reply::Leaf(Answer::Running))
+        || event == Event::Offered(node as u32, Part::Starts, true)
 }
 
 impl Space<'_> {
@@ -116,6 +132,12 @@ impl Space<'_> {
         facts.both_running = pairs(&self.both);
         facts.started_while_running = pairs(&self.overlap);
         facts.success_lost = pairs(&self.lost);
+        let vain = self.refused.values().map(|&(vain, seen)| InVain {
+            vain,
+            ticks: seen.ticks,
+            seen: (seen.node, seen.edge),
+        });
+        facts.refused = vain.collect();
         let said = self.said().to_vec();
         let has = |node: usize, answer: Answer| said[node] >> answer as u8 & 1 == 1;
         let all = 0..tree.nodes.len();
@@ -175,6 +197,11 @@ impl Space<'_> {
     /// Returns a run with the fewest ticks that shows a pair.
     pub fn run_of(&self, pair: &Pair) -> Run {
         self.run_to(pair.seen.0 as usize, pair.seen.1 as usize)
+    }
+
+    /// Returns a run with the fewest ticks in which the supervisor ignores a leaf's event.
+    pub fn run_of_in_vain(&self, it: &InVain) -> Run {
+        self.run_to(it.seen.0 as usize, it.seen.1 as usize)
     }
 
     /// Returns a run with the fewest ticks that reads what was not written.

@@ -84,6 +84,8 @@ pub(super) fn code(reply: Option<Reply>) -> u32 {
         Some(Reply::Leaf(it)) => 1 + it as u32,
         Some(Reply::Yes) => 5,
         Some(Reply::No) => 6,
+        Some(Reply::Rest) => 7,
+        Some(Reply::Net(it)) => 8 + it as u32,
     }
 }
 
@@ -96,6 +98,8 @@ impl Edge {
             4 => Reply::Leaf(Answer::Skipped),
             5 => Reply::Yes,
             6 => Reply::No,
+            7 => Reply::Rest,
+            it @ 8.. => Reply::Net(it as u8 - 8),
             _ => return None,
         })
     }

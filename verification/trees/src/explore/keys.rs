@@ -146,8 +146,11 @@ impl std::hash::Hash for Event {
             Event::Asked(_, how, reply) => (*how as u32 + 1, reply.letter() as u32),
             Event::Itself(_, answer) => (4, answer.letter() as u32),
             Event::Halted(_) => (5, 0),
+            Event::Moved(it) => (6, *it as u32),
+            Event::Passed(it) => (0, *it),
+            Event::Offered(_, part, accepted) => (7, (*part as u32) << 1 | *accepted as u32),
         };
-        state.write_u32((self.node() as u32) << 10 | sign << 7 | (letter & 0x7f));
+        state.write_u32((self.node().unwrap_or(0) as u32) << 10 | sign << 7 | (letter & 0x7f));
     }
 }
 

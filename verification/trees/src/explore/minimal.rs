@@ -4,6 +4,7 @@ use super::Space;
 use super::graph::{End, What};
 use super::keys::Map;
 use crate::machine::Status;
+use crate::tree::Node;
 
 /// View of a point at once.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -22,7 +23,7 @@ impl Space<'_> {
             let sight = match self.what(point) {
                 What::State => Sight::State,
                 What::Asks(node) => {
-                    let runs = self.tree.nodes[node].is_action();
+                    let runs = self.tree.nodes.get(node).is_some_and(Node::is_action);
                     Sight::Asks(node, runs && self.at(point).status(node) == Status::Running)
                 }
                 What::End(End::Answered(it)) => Sight::End(it as u8, 0),

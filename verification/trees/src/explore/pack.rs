@@ -26,6 +26,8 @@ pub(super) struct Pack {
     fields: Vec<(u32, Field)>,
     /// The node that asks, and whether a wake-up is pending.
     at: Field,
+    /// How many nodes may ask, with the supervisor.
+    asks: usize,
     wake: Field,
     /// Number of the blackboard, where nodes write to it.
     board: Option<Field>,
@@ -50,7 +52,7 @@ impl Pack {
         let mut fields: Vec<_> = widths.map(|(at, &bits)| (at as u32, place(bits))).collect();
         // Words are filled in turn, so that neighbours stay together.
         fields.sort_by_key(|it| (it.1.word, it.1.shift));
-        let largest = 2 * tree.nodes.len() + 6;
+        let largest = 2 * tree.nodes.len() + 7;
         let at = place((usize::BITS - largest.leading_zeros()) as u8);
         let wake = place(1);
         let board = writes(tree).then(|| place(32));
@@ -62,6 +64,7 @@ impl Pack {
             key: vec![0; words],
             fields,
             at,
+            asks: tree.nodes.len() + tree.bonds.is_some() as usize,
             wake,
             board,
             boards: Vec::new(),
@@ -114,7 +117,7 @@ impl Pack {
             machine.cells[*cell as usize] = get(*field) as u32;
         }
         let at = get(self.at) as usize;
-        machine.at = (1..=machine.tree.nodes.len()).contains(&at).then(|| at - 1);
+        machine.at = (1..=self.asks).contains(&at).then(|| at - 1);
         machine.wake = get(self.wake) == 1;
         if let Some(field) = self.board {
             let board = &self.boards[get(field) as usize];
@@ -131,7 +134,8 @@ impl Pack {
         if !self.watches {
             return machine.cells.fill(0);
         }
-        let watched: Vec<_> = machine.watched.iter().flatten().copied().collect();
+        let watched = machine.watched.iter().flatten().copied();
+        let watched: Vec<_> = watched.chain(machine.watched_net()).collect();
         for (cell, value) in machine.cells.iter_mut().enumerate() {
             if !watched.contains(&cell) {
                 *value = 0;

@@ -1,12 +1,13 @@
 //! Own properties: what always, sometimes or finally holds of the nodes of a tree.
 
+use super::condition::Condition;
 use super::cycles::Marks;
 use super::graph::What;
 use super::runs::Run;
 use super::{Assumptions, Limits, Space};
 use crate::diagnostic::nearest;
-use crate::machine::{Machine, Status};
-use crate::tree::{Answer, Tree};
+use crate::machine::Status;
+use crate::tree::{Answer, NET, Tree};
 
 /// Quantifier of a condition.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,33 +22,12 @@ pub enum Property {
     Follows(Condition, Condition),
 }
 
-/// A condition on the nodes after a tick.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Condition {
-    /// `true` or `false`.
-    Is(bool),
-    /// A node's status after the tick.
-    Has(usize, Status),
-    /// A node's last answer within the tick.
-    Answers(usize, Answer),
-    /// Whether a node was ticked.
-    Ticked(usize),
-    /// `done`: the root has answered SUCCESS, FAILURE or SKIPPED, or an exception ended the run.
-    Done,
-    /// `!p`.
-    Not(Box<Condition>),
-    /// `p & q`.
-    And(Box<Condition>, Box<Condition>),
-    /// `p | q`.
-    Or(Box<Condition>, Box<Condition>),
-}
-
 /// Why a text is no property: the byte and the cause.
 pub type Refused = (usize, String);
 
 /// Reads a property: `AG p`, `EF p`, `AF p` or `AG (p -> AF q)`, with `NODE.running`, `.idle`,
-/// `.success`, `.failure`, `.skipped`, `.ticked`, `done`, `!`, `&`, `|`, `->` and parentheses; a
-/// NODE is a label, or `root`, in double quotes where it has blanks.
+/// `.success`, `.failure`, `.skipped`, `.ticked`, `net.PLACE`, `done`, `!`, `&`, `|`, `->` and
+/// parentheses; a NODE is a label, or `root`, in double quotes where it has blanks.
 ///
 /// # Errors
 ///
@@ -198,6 +178,7 @@ impl Parser<'_> {
         let node = match self.tree.find(name) {
             Some(node) => node,
             None if name == "root" => 0,
+            None if name == NET => return self.place(),
             None => {
                 let labels: Vec<_> =
                     (0..self.tree.nodes.len()).map(|it| self.tree.shown(it)).collect();
@@ -227,33 +208,27 @@ impl Parser<'_> {
     }
 }
 
-impl Condition {
-    /// Returns the nodes whose answers within a tick are asked for.
-    pub(crate) fn watched(&self, into: &mut Vec<usize>) {
-        match self {
-            Condition::Answers(node, _) | Condition::Ticked(node) => into.push(*node),
-            Condition::Not(it) => it.watched(into),
-            Condition::And(a, b) | Condition::Or(a, b) => {
-                a.watched(into);
-                b.watched(into);
-            }
-            Condition::Is(_) | Condition::Has(..) | Condition::Done => {}
+impl Parser<'_> {
+    /// Reads a place of the supervisor, after `net`.
+    fn place(&mut self) -> Result<Condition, Refused> {
+        let Some(bonds) = self.tree.bonds.as_deref() else {
+            return Err((self.at, "no supervisor is given: --with says which".to_owned()));
+        };
+        if !self.takes(".") {
+            return Err((self.at, "after net stands `.` and a place".to_owned()));
         }
-    }
-
-    /// Returns whether a condition holds of a machine after a tick that may have ended the run.
-    pub(crate) fn holds(&self, machine: &Machine, is_end: bool) -> bool {
-        let answer = |node: usize| machine.watched[node].map_or(0, |it| machine.cells[it]);
-        match self {
-            Condition::Is(it) => *it,
-            Condition::Has(node, status) => machine.status(*node) == *status,
-            Condition::Answers(node, it) => answer(*node) == *it as u32 + 1,
-            Condition::Ticked(node) => answer(*node) != 0,
-            Condition::Done => is_end,
-            Condition::Not(it) => !it.holds(machine, is_end),
-            Condition::And(a, b) => a.holds(machine, is_end) && b.holds(machine, is_end),
-            Condition::Or(a, b) => a.holds(machine, is_end) || b.holds(machine, is_end),
+        let begin = self.at;
+        let rest = &self.text[begin..];
+        let ends = |it: char| !(it.is_alphanumeric() || "_.".contains(it));
+        let name = &rest[..rest.find(ends).unwrap_or(rest.len())];
+        self.at += name.len();
+        let places = &bonds.net.places;
+        if let Some(place) = places.iter().position(|it| it == name) {
+            return Ok(Condition::Marked(place));
         }
+        let near = nearest(name, places.iter().map(String::as_str));
+        let near = near.map(|it| format!("; did you mean {it}?")).unwrap_or_default();
+        Err((begin, format!("no place {name}{near}")))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Space;
 use super::graph::What;
-use crate::machine::{How, Reply, Status};
+use crate::machine::{Event, How, Reply, Status};
 use crate::tree::{Answer, Kind};
 use std::collections::VecDeque;
 
@@ -44,7 +44,7 @@ impl Space<'_> {
         let mut done: Vec<usize> = Vec::new();
         while let Some(point) = waiting.pop_front() {
             let asks = match self.what(point) {
-                What::Asks(node) => Some(node),
+                What::Asks(node) if node < tree.nodes.len() => Some(node),
                 _ => None,
             };
             if let Some(node) = asks
@@ -69,6 +69,18 @@ impl Space<'_> {
             for edge in self.out(point) {
                 let it = self.edges[edge];
                 if writes && it.reply() == Some(Reply::Leaf(Answer::Success)) {
+                    continue;
+                }
+                // A leaf that acts on the supervisor writes without being asked.
+                let bound = self.tree.bonds.is_some()
+                    && self.events(edge).iter().any(|it| match *it {
+                        Event::Itself(node, Answer::Success) => {
+                            tree.bond(node as usize).is_some()
+                                && tree.nodes[node as usize].writes.contains(entry)
+                        }
+                        _ => false,
+                    });
+                if bound {
                     continue;
                 }
                 let target = it.target as usize;

@@ -35,7 +35,10 @@ pub(super) fn enter(m: &mut Machine, node: usize, kind: LeafKind) -> Move {
             let success = kind == LeafKind::FirstSuccess;
             itself(m, if success { Answer::Success } else { Answer::Failure })
         }
-        _ => Move::Ask,
+        _ => match m.tree.bond(node) {
+            Some(bond) => m.enter_bound(node, bond),
+            None => Move::Ask,
+        },
     }
 }
 
@@ -46,6 +49,7 @@ pub(super) fn halted(m: &mut Machine, node: usize) -> bool {
         Kind::Leaf(kind) if kind.runs() => {
             if running {
                 m.events.push(Event::Halted(node as u32));
+                m.halt_bound(node);
             }
         }
         Kind::Sleep { .. } => {

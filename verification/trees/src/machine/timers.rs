@@ -150,6 +150,7 @@ impl Machine<'_> {
 
     /// Lets a timer go off.
     pub(super) fn fire(&mut self, node: usize) -> Result<(), Fault> {
+        self.gone_off();
         let kind = &self.tree.nodes[node].kind;
         let Some(cell) = armed(kind) else { return Ok(()) };
         self.set(node, cell, 0);

@@ -1,5 +1,6 @@
 //! Questions, replies, events: the words in which a machine and the world speak.
 
+use crate::supervisor::Part;
 use crate::tree::{Answer, Tree};
 
 /// Status that a node keeps between ticks.
@@ -45,15 +46,38 @@ pub enum Reply {
     Yes,
     /// Closed, or not elapsed.
     No,
+    /// The supervisor has done what it does: the tree is ticked.
+    Rest,
+    /// The supervisor makes one of its moves.
+    Net(u8),
+}
+
+/// Most moves of a supervisor.
+pub const MOST_MOVES: usize = 119;
+
+/// Replies of a supervisor that has so many moves.
+pub(super) fn moves(count: usize) -> &'static [Reply] {
+    const ALL: [Reply; MOST_MOVES + 1] = {
+        let mut all = [Reply::Rest; MOST_MOVES + 1];
+        let mut at = 0;
+        while at < MOST_MOVES {
+            all[at + 1] = Reply::Net(at as u8);
+            at += 1;
+        }
+        all
+    };
+    &ALL[..=count.min(MOST_MOVES)]
 }
 
 impl Reply {
-    /// Returns the letter of traces.
+    /// Returns the letter of traces; moves of a supervisor have names instead.
     pub fn letter(self) -> char {
         match self {
             Reply::Leaf(it) => it.letter(),
             Reply::Yes => 'T',
             Reply::No => 'N',
+            Reply::Rest => '-',
+            Reply::Net(_) => '+',
         }
     }
 
@@ -96,7 +120,7 @@ impl How {
 /// A question to the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Question {
-    /// The node that asks.
+    /// The node that asks; one more than the last is the supervisor.
     pub node: usize,
     /// Manner of asking.
     pub how: How,
@@ -113,23 +137,42 @@ pub enum Event {
     Itself(u32, Answer),
     /// A running leaf was halted, `!`.
     Halted(u32),
+    /// The supervisor made one of its moves, `(move)`.
+    Moved(u8),
+    /// Time let transitions of the supervisor fire, `[transitions]`: the number of their list.
+    Passed(u32),
+    /// A leaf started or stopped something in the supervisor, `>`; whether it was accepted.
+    Offered(u32, Part, bool),
 }
 
 impl Event {
-    /// Returns the node.
-    pub fn node(self) -> usize {
+    /// Returns the node, unless it is the supervisor's own.
+    pub fn node(self) -> Option<usize> {
         match self {
-            Event::Asked(node, ..) | Event::Itself(node, _) | Event::Halted(node) => node as usize,
+            Event::Asked(node, ..)
+            | Event::Itself(node, _)
+            | Event::Halted(node)
+            | Event::Offered(node, ..) => Some(node as usize),
+            Event::Moved(_) | Event::Passed(_) => None,
         }
     }
 
     /// Writes the event with the node's label.
     pub fn shown(self, tree: &Tree) -> String {
-        let label = &tree.nodes[self.node()].label;
+        let label = self.node().map_or("", |it| &tree.nodes[it].label);
+        let bonds = tree.bonds.as_deref();
         match self {
             Event::Asked(_, how, reply) => format!("{label}{}{}", how.sign(), reply.letter()),
             Event::Itself(_, answer) => format!("{label}={}", answer.letter()),
             Event::Halted(_) => format!("{label}!"),
+            Event::Moved(it) => format!("({})", bonds.map_or("?", |bonds| bonds.of_move(it))),
+            Event::Passed(list) => {
+                format!("[{}]", bonds.map_or_else(String::new, |bonds| bonds.fired(list)))
+            }
+            Event::Offered(node, part, accepted) => {
+                let event = bonds.and_then(|it| it.offered(node as usize, part)).unwrap_or("?");
+                format!("{label}>{event}{}", if accepted { "" } else { ":ignored" })
+            }
         }
     }
 }

@@ -45,6 +45,7 @@ pub(super) fn expand(
         boards: vec![Board::default()],
         types: BTreeMap::new(),
         files: Vec::new(),
+        bonds: None,
     };
     let mut at = Expander { sources, options, findings, tree, open: Vec::new(), full: false };
     let root = sources.tree_of(main)?;

@@ -1,0 +1,60 @@
+//! `--with` and `--bind`: a supervisor beside a tree.
+
+use super::TREE_BYTES;
+use crate::args::TreeArgs;
+use crate::exit::Failure;
+use crate::file_errors::FileErrors;
+use crate::input;
+use crate::model;
+use cotama_trees::kinds::{Leaf, nav2};
+use cotama_trees::supervisor::{Supervisor, Unfit, Written, Wrong, bind, written};
+use cotama_trees::tree::Tree;
+
+/// A file of bonds, as it is written.
+pub(super) struct Bindings {
+    supervisor: String,
+    path: String,
+    text: String,
+    lines: Vec<Written>,
+}
+
+impl Bindings {
+    /// Reads the file, if one is given.
+    pub(super) fn read(args: &TreeArgs) -> Result<Option<Self>, Failure> {
+        let (Some(supervisor), Some(path)) = (&args.with, &args.bind) else { return Ok(None) };
+        let text = input::text(path, "a file that binds leaves", TREE_BYTES)?;
+        let lines = written(&text).map_err(|it| wrong(path, &text, it))?;
+        Ok(Some(Self { supervisor: supervisor.clone(), path: path.clone(), text, lines }))
+    }
+
+    /// Returns the leaves that nothing else describes.
+    pub(super) fn leaves(&self, known: &[Leaf]) -> Vec<Leaf> {
+        let known: Vec<_> = known.iter().cloned().chain(nav2()).map(|it| it.tag).collect();
+        let all = self.lines.iter().map(Written::leaf);
+        all.filter(|it| !known.contains(&it.tag)).collect()
+    }
+
+    /// Binds the leaves of a tree.
+    pub(super) fn bind(&self, tree: &mut Tree, period: Option<u32>) -> Result<(), Failure> {
+        let name = &self.supervisor;
+        let explored = model::with_system(name, |system, _| Supervisor::of(system, period))?;
+        let net = explored.map_err(|it| {
+            let failure = Failure::new(format!("--with `{name}`: {it}"));
+            match it {
+                Unfit::Plain => failure.help("a supervisor has events: see `cotama models`"),
+                Unfit::Large => failure.help("name one of its nets alone"),
+                _ => failure,
+            }
+        })?;
+        bind(&self.lines, tree, net).map_err(|it| wrong(&self.path, &self.text, it))
+    }
+}
+
+fn wrong(path: &str, text: &str, it: Wrong) -> Failure {
+    let (text, path) = (text.to_owned(), input::name(path));
+    let errors = FileErrors::at(path, text, it.line, it.column, it.message);
+    Failure::Text(Box::new(match it.help {
+        Some(help) => errors.help(help),
+        None => errors,
+    }))
+}
