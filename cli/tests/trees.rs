@@ -179,6 +179,29 @@ fn a_tree_is_a_net_with_the_same_verdicts() {
 }
 
 #[test]
+fn a_tree_beside_a_supervisor_is_a_net_with_the_same_verdicts() {
+    let folder = Folder::new("trees_supervised_net");
+    let tree = r#"<root BTCPP_format="4"><BehaviorTree ID="Main">
+      <Sequence><Drive name="ToA"/><Stands/><Drive name="ToB"/></Sequence>
+      </BehaviorTree></root>"#;
+    folder.write("tree.xml", tree);
+    for (ends, can_end) in [("upon ended", true), ("at End", false)] {
+        let drive = format!("Drive starts start_drive succeeds {ends} halts gs_abort");
+        folder.write("drive.txt", format!("{drive}\nStands succeeds at Idle\n"));
+        let with = |more: &[&str]| {
+            folder.cotama(&[more, &["--with", "local", "--bind", "drive.txt"]].concat())
+        };
+        let code = i32::from(!can_end);
+        let answer = with(&["check", "tree.xml", "--json"]).json(code);
+        assert_eq!(row(&answer, "stuck")["verdict"], can_end.to_string());
+        let line = ["export", "tree.xml", "--format", "pnml", "--output", "tree.pnml"];
+        assert_eq!(with(&line).code, Some(0));
+        let ended = folder.cotama(&["check", "tree.pnml", "--property", "AG EF ended"]);
+        assert_eq!(ended.code, Some(code), "{}", ended.stdout);
+    }
+}
+
+#[test]
 fn at_a_period_timers_count_and_differences_are_told() {
     let folder = Folder::new("trees_period");
     let tree = r#"<root BTCPP_format="4"><BehaviorTree ID="Main">

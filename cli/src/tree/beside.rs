@@ -7,7 +7,7 @@ use crate::file_errors::FileErrors;
 use crate::input;
 use crate::model;
 use cotama_trees::kinds::{Leaf, nav2};
-use cotama_trees::supervisor::{Supervisor, Unfit, Written, Wrong, bind, written};
+use cotama_trees::supervisor::{Bindings as Written, Supervisor, Unfit, Wrong};
 use cotama_trees::tree::Tree;
 
 /// A file of bonds, as it is written.
@@ -15,7 +15,7 @@ pub(super) struct Bindings {
     supervisor: String,
     path: String,
     text: String,
-    lines: Vec<Written>,
+    written: Written,
 }
 
 impl Bindings {
@@ -23,30 +23,34 @@ impl Bindings {
     pub(super) fn read(args: &TreeArgs) -> Result<Option<Self>, Failure> {
         let (Some(supervisor), Some(path)) = (&args.with, &args.bind) else { return Ok(None) };
         let text = input::text(path, "a file that binds leaves", TREE_BYTES)?;
-        let lines = written(&text).map_err(|it| wrong(path, &text, it))?;
-        Ok(Some(Self { supervisor: supervisor.clone(), path: path.clone(), text, lines }))
+        let written = Written::read(&text).map_err(|it| wrong(path, &text, it))?;
+        Ok(Some(Self { supervisor: supervisor.clone(), path: path.clone(), text, written }))
     }
 
     /// Returns the leaves that nothing else describes.
     pub(super) fn leaves(&self, known: &[Leaf]) -> Vec<Leaf> {
         let known: Vec<_> = known.iter().cloned().chain(nav2()).map(|it| it.tag).collect();
-        let all = self.lines.iter().map(Written::leaf);
+        let all = self.written.leaves().into_iter();
         all.filter(|it| !known.contains(&it.tag)).collect()
     }
 
     /// Binds the leaves of a tree.
     pub(super) fn bind(&self, tree: &mut Tree, period: Option<u32>) -> Result<(), Failure> {
         let name = &self.supervisor;
-        let explored = model::with_system(name, |system, _| Supervisor::of(system, period))?;
+        let explored = model::with_system(name, |system, _| {
+            Supervisor::of(system, period, &self.written.never())
+        })?;
         let net = explored.map_err(|it| {
             let failure = Failure::new(format!("--with `{name}`: {it}"));
             match it {
                 Unfit::Plain => failure.help("a supervisor has events: see `cotama models`"),
-                Unfit::Large => failure.help("name one of its nets alone"),
+                Unfit::Large => {
+                    failure.help("name one of its nets alone, or say which events `never` happen")
+                }
                 _ => failure,
             }
         })?;
-        bind(&self.lines, tree, net).map_err(|it| wrong(&self.path, &self.text, it))
+        self.written.bind(tree, net).map_err(|it| wrong(&self.path, &self.text, it))
     }
 }
 

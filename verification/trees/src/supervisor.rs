@@ -10,12 +10,13 @@
 //! use cotama_core::system::{Component, System};
 //! use cotama_trees::machine::{Machine, Reply, Stop};
 //! use cotama_trees::reader;
-//! use cotama_trees::supervisor::{Supervisor, bind, written};
+//! use cotama_trees::supervisor::{Bindings, Supervisor};
 //! let text = r#"<root BTCPP_format="4"><BehaviorTree ID="Main"><A1/></BehaviorTree></root>"#;
 //! let mut tree = reader::read_text(text).unwrap().tree;
 //! let alone = [Component::alone(&door::NET)];
-//! let door = Supervisor::of(&System::alone(&alone), None).unwrap();
-//! bind(&written("A1 starts Call succeeds at Open").unwrap(), &mut tree, door).unwrap();
+//! let door = Supervisor::of(&System::alone(&alone), None, &[]).unwrap();
+//! let bindings = Bindings::read("A1 starts Call succeeds at Open").unwrap();
+//! bindings.bind(&mut tree, door).unwrap();
 //!
 //! let mut machine = Machine::new(&tree);
 //! assert!(matches!(machine.tick(), Stop::Asked(_))); // the net, which may move or rest
@@ -26,7 +27,7 @@
 mod binding;
 mod graph;
 
-pub use binding::{Written, Wrong, bind, written};
+pub use binding::{Bindings, Wrong};
 pub use graph::{MOST_STATES, Unfit};
 use std::collections::BTreeMap;
 

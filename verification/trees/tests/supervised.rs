@@ -15,24 +15,24 @@ use cotama_trees::machine::{Event, Machine, Stop};
 use cotama_trees::plain::walk;
 use cotama_trees::reader::{self, Options};
 use cotama_trees::replay::{frames, lines};
-use cotama_trees::supervisor::{Supervisor, bind, written};
+use cotama_trees::supervisor::{Bindings, Supervisor};
 use cotama_trees::tree::Tree;
 
 fn supervisor(net: &Net<'_>, period: Option<u32>) -> Supervisor {
     let alone = [Component::alone(net)];
-    Supervisor::of(&System::alone(&alone), period).unwrap()
+    Supervisor::of(&System::alone(&alone), period, &[]).unwrap()
 }
 
 /// Reads a tree of which every leaf is known, or bound.
 fn bound(nodes: &str, bonds: &str, net: Supervisor) -> Tree {
     let text =
         format!(r#"<root BTCPP_format="4"><BehaviorTree ID="Main">{nodes}</BehaviorTree></root>"#);
-    let all = written(bonds).unwrap();
-    let leaves = all.iter().map(|it| it.leaf()).collect();
+    let all = Bindings::read(bonds).unwrap();
+    let leaves = all.leaves();
     let mut file = |_: &str| Ok(text.clone().into_bytes());
     let options = Options { leaves, ..Options::default() };
     let mut tree = reader::read("main.xml", &mut file, &options).unwrap().tree;
-    bind(&all, &mut tree, net).unwrap();
+    all.bind(&mut tree, net).unwrap();
     tree
 }
 
@@ -178,7 +178,8 @@ fn walks(count: usize, period: Option<u32>) -> usize {
     for _ in 0..count {
         let text = maker.tree();
         let mut tree = reader::read_text(&text).unwrap().tree;
-        bind(&written(&bonds(&tree, DOORS)).unwrap(), &mut tree, net.clone()).unwrap();
+        let all = Bindings::read(&bonds(&tree, DOORS)).unwrap();
+        all.bind(&mut tree, net.clone()).unwrap();
         let mut machine = Machine::new(&tree);
         let (mut door, mut now) = (door::Player::new(), Millis(0));
         for _ in 0..20 {
@@ -267,7 +268,8 @@ fn explorations_beside_a_supervisor_agree_with_a_plain_walk() {
         let text = maker.tree_of(2);
         let mut tree = reader::read_text(&text).unwrap().tree;
         let (net, lines) = &nets[number % 2];
-        bind(&written(&bonds(&tree, *lines)).unwrap(), &mut tree, net.clone()).unwrap();
+        let all = Bindings::read(&bonds(&tree, *lines)).unwrap();
+        all.bind(&mut tree, net.clone()).unwrap();
         let none = Assumptions::default();
         let Some(plain) = walk(&tree, false, none.clone(), None, 2_000) else { continue };
         let mut space = Space::explore(&tree, false, none, Limits::default());
@@ -292,13 +294,26 @@ fn explorations_beside_a_supervisor_agree_with_a_plain_walk() {
 }
 
 #[test]
+fn events_that_never_happen_leave_their_states_out() {
+    let nodes = "<Sequence><OpenDoor/><A1/></Sequence>";
+    let alone = [Component::alone(&door::NET)];
+    let net = |never: &[&str]| Supervisor::of(&System::alone(&alone), None, never).unwrap();
+    let calm = net(&["Obstacle", "close"]);
+    assert_eq!((net(&[]).states, calm.states), (8, 3));
+    let tree = bound(nodes, &format!("{OPENS}\nnever Obstacle close"), calm);
+    assert_eq!(asked(&tree, "AG !(A1.running & net.Closing)").0, Some(true));
+    let moves = &tree.bonds.as_deref().unwrap().moves;
+    assert_eq!(moves.len(), 3);
+}
+
+#[test]
 fn mistakes_in_a_file_of_bonds_are_told_with_their_places() {
     let said = |bonds: &str| {
         let text = r#"<root BTCPP_format="4"><BehaviorTree ID="Main">
             <Sequence><A1/><C1/><S1/><L1/></Sequence></BehaviorTree></root>"#;
         let mut tree = reader::read_text(text).unwrap().tree;
         let net = supervisor(&door::NET, None);
-        let it = written(bonds).and_then(|it| bind(&it, &mut tree, net)).unwrap_err();
+        let it = Bindings::read(bonds).and_then(|it| it.bind(&mut tree, net)).unwrap_err();
         format!("{}:{}: {}", it.line, it.column, it.message)
     };
     let all = [
@@ -332,6 +347,9 @@ fn mistakes_in_a_file_of_bonds_are_told_with_their_places() {
             "1:1: S1 is `sync`, and ends at once: it cannot wait for \
           anything",
         ),
+        ("never", "1:1: after `never` stand events"),
+        ("never clse", "1:7: no event clse; did you mean close?"),
+        ("A1 starts Call\nnever Clear Call", "2:13: a leaf offers Call"),
         ("L1 reads at Open", "1:1: L1 begins by a rule of its own"),
         ("Sequence starts Call", "1:1: Sequence is no leaf: the library answers for it"),
         (

@@ -81,7 +81,6 @@ impl Machine<'_> {
         for node in 0..self.tree.nodes.len() {
             self.halt(node).map_err(thrown)?;
         }
-        self.put_status(0, Status::Idle);
         Ok(())
     }
 }

@@ -4,7 +4,7 @@ use super::{Acts, Bond, Bonds, Sight, Supervisor, When};
 use crate::diagnostic::nearest;
 use crate::kinds::{Leaf, LeafKind};
 use crate::machine::MOST_MOVES;
-use crate::tree::{Kind, Tree};
+use crate::tree::{Kind, Node, Tree};
 
 /// A mistake in a file, with the remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,9 +51,17 @@ enum Looks {
 
 type Sights = Vec<(Looks, Word)>;
 
-/// One line as it is written: a leaf and its clauses.
+/// A file as it is written.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Bindings {
+    lines: Vec<Line>,
+    /// Events that do not happen.
+    never: Vec<Word>,
+}
+
+/// A leaf and its clauses.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Written {
+struct Line {
     leaf: Word,
     reads: Option<Sights>,
     starts: Option<Word>,
@@ -65,25 +73,45 @@ pub struct Written {
 
 const CLAUSES: [&str; 6] = ["starts", "tries", "succeeds", "fails", "halts", "reads"];
 
-/// Reads a file of bonds. A line has a leaf and clauses: `starts EVENT` or `tries EVENT`,
-/// `succeeds WHEN`, `fails WHEN`, `halts EVENT`; of a condition `reads WHEN`. WHEN is `at PLACE`,
-/// `not at PLACE`, `after TRANSITION`, `upon OUTPUT`, or several with `or` between them. `#` begins
-/// a comment; names with blanks stand in double quotes.
-///
-/// # Errors
-/// Returns the first mistake.
-pub fn written(text: &str) -> Result<Vec<Written>, Wrong> {
-    let mut all: Vec<Written> = Vec::new();
-    for (at, line) in text.lines().enumerate() {
-        let words = words(line, at + 1)?;
-        let Some((leaf, rest)) = words.split_first() else { continue };
-        if let Some(known) = all.iter().find(|it| it.leaf.text == leaf.text) {
-            let message = format!("{} is bound in line {} already", leaf.text, known.leaf.line);
-            return Err(leaf.wrong(message));
+impl Bindings {
+    /// Reads a file. A line has a leaf and clauses: `starts EVENT` or `tries EVENT`, `succeeds
+    /// WHEN`, `fails WHEN`, `halts EVENT`; of a condition `reads WHEN`. WHEN is `at PLACE`, `not at
+    /// PLACE`, `after TRANSITION`, `upon OUTPUT`, or several with `or` between them. Or it has
+    /// `never` and events that do not happen. `#` begins a comment; names with blanks stand in
+    /// double quotes.
+    ///
+    /// # Errors
+    /// Returns the first mistake.
+    pub fn read(text: &str) -> Result<Bindings, Wrong> {
+        let mut all = Bindings::default();
+        for (at, line) in text.lines().enumerate() {
+            let words = words(line, at + 1)?;
+            let Some((leaf, rest)) = words.split_first() else { continue };
+            if leaf.text == "never" {
+                if rest.is_empty() {
+                    return Err(leaf.wrong("after `never` stand events".to_owned()));
+                }
+                all.never.extend_from_slice(rest);
+                continue;
+            }
+            if let Some(known) = all.lines.iter().find(|it| it.leaf.text == leaf.text) {
+                let message = format!("{} is bound in line {} already", leaf.text, known.leaf.line);
+                return Err(leaf.wrong(message));
+            }
+            all.lines.push(clauses(leaf, rest)?);
         }
-        all.push(clauses(leaf, rest)?);
+        Ok(all)
     }
-    Ok(all)
+
+    /// Returns the leaves with kinds, for trees whose leaves nothing else describes.
+    pub fn leaves(&self) -> Vec<Leaf> {
+        self.lines.iter().map(Line::leaf).collect()
+    }
+
+    /// Returns the events that do not happen.
+    pub fn never(&self) -> Vec<&str> {
+        self.never.iter().map(|it| it.text.as_str()).collect()
+    }
 }
 
 /// Splits a line; nothing is left of a comment.
@@ -116,8 +144,8 @@ fn words(line: &str, number: usize) -> Result<Vec<Word>, Wrong> {
     Ok(words)
 }
 
-fn clauses(leaf: &Word, rest: &[Word]) -> Result<Written, Wrong> {
-    let mut it = Written {
+fn clauses(leaf: &Word, rest: &[Word]) -> Result<Line, Wrong> {
+    let mut it = Line {
         leaf: leaf.clone(),
         reads: None,
         starts: None,
@@ -213,9 +241,8 @@ fn when<'w>(clause: &Word, rest: &'w [Word]) -> Result<(Sights, &'w [Word]), Wro
     }
 }
 
-impl Written {
-    /// Returns the leaf as a kind, for trees whose leaf nothing else describes.
-    pub fn leaf(&self) -> Leaf {
+impl Line {
+    fn leaf(&self) -> Leaf {
         let kind = if self.reads.is_some() {
             LeafKind::Condition
         } else if self.succeeds.is_some() || self.fails.is_some() {
@@ -227,64 +254,73 @@ impl Written {
     }
 }
 
-/// Binds the leaves of a tree to a supervisor.
-///
-/// # Errors
-/// Returns the first mistake: a name that is not there, or a leaf whose kind answers otherwise.
-pub fn bind(all: &[Written], tree: &mut Tree, net: Supervisor) -> Result<(), Wrong> {
-    let mut of: Vec<Option<Bond>> = vec![None; tree.nodes.len()];
-    for it in all {
-        let bond = bond(it, &net)?;
-        let name = it.leaf.text.as_str();
-        let named = tree
-            .nodes
-            .iter()
-            .enumerate()
-            .filter(|(_, node)| node.label == name || node.name == name || node.tag == name);
-        let named: Vec<_> = named.map(|it| it.0).collect();
-        if named.is_empty() {
-            let leaves = tree.nodes.iter().filter(|it| !it.is_built_in());
-            let names: Vec<_> = leaves.flat_map(|it| [it.label.as_str(), &it.tag]).collect();
-            return Err(it.leaf.unknown("leaf", names));
-        }
-        for node in named {
-            fits(it, &tree.nodes[node].kind)?;
-            if of[node].is_some() {
-                let message = format!("{name}: {} is bound already", tree.shown(node));
-                return Err(it.leaf.wrong(message));
+impl Bindings {
+    /// Binds the leaves of a tree to a supervisor.
+    ///
+    /// # Errors
+    /// Returns the first mistake: a name that is not there, or a leaf whose kind answers otherwise.
+    pub fn bind(&self, tree: &mut Tree, net: Supervisor) -> Result<(), Wrong> {
+        let mut of: Vec<Option<Bond>> = vec![None; tree.nodes.len()];
+        for it in &self.lines {
+            let bond = bond(it, &net)?;
+            for node in named(it, tree)? {
+                fits(it, &tree.nodes[node].kind)?;
+                if of[node].is_some() {
+                    let name = &it.leaf.text;
+                    let message = format!("{name}: {} is bound already", tree.shown(node));
+                    return Err(it.leaf.wrong(message));
+                }
+                of[node] = Some(bond.clone());
             }
-            of[node] = Some(bond.clone());
         }
+        let moves = self.moves(&of, &net)?;
+        tree.bonds = Some(Box::new(Bonds { net, moves, of }));
+        Ok(())
     }
-    let offered: Vec<_> = of
-        .iter()
-        .flatten()
-        .flat_map(|it| match it {
+
+    /// Returns the events that happen, and that no leaf offers.
+    fn moves(&self, of: &[Option<Bond>], net: &Supervisor) -> Result<Vec<usize>, Wrong> {
+        let events = of.iter().flatten().flat_map(|it| match it {
             Bond::Acts(it) => [it.starts, it.halts],
             Bond::Reads(_) => [None, None],
-        })
-        .flatten()
-        .collect();
-    let moves: Vec<_> =
-        (0..net.events.len()).filter(|it| !offered.contains(it) && Some(*it) != net.pass).collect();
-    if moves.len() > MOST_MOVES {
-        return Err(Wrong {
-            line: 1,
-            column: 1,
-            message: format!(
-                "{} has {} events that no leaf offers, and {MOST_MOVES} are the most",
-                net.name,
-                moves.len()
-            ),
-            help: Some("bind a part of the system".to_owned()),
         });
+        let mut left: Vec<_> = events.flatten().chain(net.pass).collect();
+        for word in &self.never {
+            let Some(at) = net.events.iter().position(|it| *it == word.text) else {
+                return Err(word.unknown("event", net.events.iter().map(String::as_str)));
+            };
+            if left.contains(&at) {
+                return Err(word.wrong(format!("a leaf offers {}", word.text)));
+            }
+            left.push(at);
+        }
+        let moves: Vec<_> = (0..net.events.len()).filter(|it| !left.contains(it)).collect();
+        if moves.len() <= MOST_MOVES {
+            return Ok(moves);
+        }
+        let (name, count) = (&net.name, moves.len());
+        let first = Word { text: String::new(), line: 1, column: 1 };
+        let most = format!("{MOST_MOVES} are the most");
+        let wrong = first.wrong(format!("{name} has {count} events that no leaf offers: {most}"));
+        Err(Wrong { help: Some("say which `never` happen".to_owned()), ..wrong })
     }
-    tree.bonds = Some(Box::new(Bonds { net, moves, of }));
-    Ok(())
+}
+
+/// Returns the nodes of a line.
+fn named(it: &Line, tree: &Tree) -> Result<Vec<usize>, Wrong> {
+    let name = it.leaf.text.as_str();
+    let is = |node: &Node| node.label == name || node.name == name || node.tag == name;
+    let found: Vec<_> = (0..tree.nodes.len()).filter(|at| is(&tree.nodes[*at])).collect();
+    if found.is_empty() {
+        let leaves = tree.nodes.iter().filter(|it| !it.is_built_in());
+        let names: Vec<_> = leaves.flat_map(|it| [it.label.as_str(), &it.tag]).collect();
+        return Err(it.leaf.unknown("leaf", names));
+    }
+    Ok(found)
 }
 
 /// Refuses a leaf that answers otherwise.
-fn fits(it: &Written, kind: &Kind) -> Result<(), Wrong> {
+fn fits(it: &Line, kind: &Kind) -> Result<(), Wrong> {
     let name = &it.leaf.text;
     let Kind::Leaf(kind) = kind else {
         return Err(it.leaf.wrong(format!("{name} is no leaf: the library answers for it")));
@@ -304,7 +340,7 @@ fn fits(it: &Written, kind: &Kind) -> Result<(), Wrong> {
     Err(it.leaf.wrong(format!("{name} {why}")))
 }
 
-fn bond(it: &Written, net: &Supervisor) -> Result<Bond, Wrong> {
+fn bond(it: &Line, net: &Supervisor) -> Result<Bond, Wrong> {
     if let Some(sights) = &it.reads {
         for (looks, word) in sights {
             if matches!(looks, Looks::After | Looks::Upon) {

@@ -48,11 +48,15 @@ impl Supervisor {
     ///
     /// With a period time passes between two ticks, and events come at the instants of ticks.
     /// Without, intervals are left out: a transition with one fires when it likes, by a move of its
-    /// own, or is open whenever its event comes.
+    /// own, or is open whenever its event comes. Events of `never` do not happen.
     ///
     /// # Errors
     /// Why it cannot be set beside a tree.
-    pub fn of(system: &System<'_>, period: Option<u32>) -> Result<Supervisor, Unfit> {
+    pub fn of(
+        system: &System<'_>,
+        period: Option<u32>,
+        never: &[&str],
+    ) -> Result<Supervisor, Unfit> {
         let mut owned = OwnedSystem::from(system);
         let told = |numbered: &Numbered| numbered.told_events();
         let numbered = Numbered::of(system);
@@ -80,7 +84,7 @@ impl Supervisor {
         let mut found = Err(Unfit::Restless);
         numbered
             .play(Millis(0), &mut |game, _| {
-                found = Search::new(&numbered, timed.clone(), period).run(game);
+                found = Search::new(&numbered, timed.clone(), period).run(game, never);
             })
             .map_err(Unfit::NotPlayed)?;
         found
@@ -150,8 +154,13 @@ impl<'n> Search<'n> {
         }
     }
 
-    fn run<'c>(mut self, first: Box<dyn Game<'c> + 'c>) -> Result<Supervisor, Unfit> {
-        let mut first = first;
+    fn run<'c>(
+        mut self,
+        mut first: Box<dyn Game<'c> + 'c>,
+        never: &[&str],
+    ) -> Result<Supervisor, Unfit> {
+        let happens = |it: &String| !never.contains(&it.as_str());
+        let happens: Vec<_> = self.net.events.iter().map(happens).collect();
         if first.advance(Millis(0), &mut Vec::new()) {
             return Err(Unfit::Restless);
         }
@@ -159,7 +168,12 @@ impl<'n> Search<'n> {
         self.number(&*first);
         waiting.push_back(first);
         while let Some(game) = waiting.pop_front() {
-            for event in 0..self.net.events.len() {
+            for (event, happens) in happens.iter().enumerate() {
+                if !happens {
+                    let (to, _) = self.number(&*game);
+                    self.net.edges.push(Edge { to, fired: 0, taken: Taken::Ignored });
+                    continue;
+                }
                 let mut next = game.fork();
                 let mut fired = Vec::new();
                 let taken = self.takes(&mut *next, event, &mut fired)?;
