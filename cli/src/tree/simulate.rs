@@ -37,6 +37,7 @@ impl Game<'_> {
                     return Some(question);
                 }
                 Stop::Answered(answer) => answer.letter().to_string(),
+                Stop::Halted => "H".to_owned(),
                 Stop::Thrown(thrown) => {
                     let of = thrown.node.map(|it| format!("@{}", self.tree.shown(it)));
                     format!("X{}: {}", of.unwrap_or_default(), thrown.why)

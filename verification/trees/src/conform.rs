@@ -244,6 +244,7 @@ fn step(machine: &mut Machine, row: &Row) -> Result<(String, String), (String, S
                 None => "X".to_owned(),
             },
             Stop::Asked(_) => String::new(),
+            Stop::Halted => "H".to_owned(),
         };
         if row.op == Op::Tick || status != "R" || !machine.take_wake() {
             return Ok((joined(&parts), status));

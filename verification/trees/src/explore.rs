@@ -179,6 +179,7 @@ impl<'t> Space<'t> {
                 1 => End::Answered(Answer::Failure),
                 2 => End::Answered(Answer::Skipped),
                 3 => End::Thrown(None),
+                it if it as usize == self.tree.nodes.len() + 4 => End::Halted,
                 it => End::Thrown(Some(it as usize - 4)),
             }),
         }
@@ -321,6 +322,7 @@ impl<'t> Space<'t> {
             Stop::Answered(Answer::Success) => (asks + 1, ticks),
             Stop::Answered(Answer::Failure) => (asks + 2, ticks),
             Stop::Answered(Answer::Skipped) => (asks + 3, ticks),
+            Stop::Halted => (asks + 5 + self.tree.nodes.len() as u32, ticks),
             Stop::Thrown(thrown) => (asks + 4 + thrown.node.map_or(0, |it| it as u32 + 1), ticks),
         };
         let wakes = what == 0 && self.machine.wake;
@@ -369,7 +371,7 @@ impl<'t> Space<'t> {
                 waiting.push_back(target);
                 self.look_at_state(seen);
             }
-            Stop::Answered(_) => {}
+            Stop::Answered(_) | Stop::Halted => {}
             Stop::Thrown(thrown) => {
                 self.causes.entry(End::Thrown(thrown.node)).or_insert(thrown.why);
             }

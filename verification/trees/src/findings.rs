@@ -182,7 +182,7 @@ impl Found<'_, '_> {
         }
         let thrown = ends.keys().filter_map(|it| match it {
             End::Thrown(node) => Some(*node),
-            End::Answered(_) => None,
+            End::Answered(_) | End::Halted => None,
         });
         for node in thrown.collect::<Vec<_>>() {
             let end = End::Thrown(node);
@@ -257,7 +257,7 @@ impl Found<'_, '_> {
         // Nor does a node in whose tick an exception is thrown.
         let thrown = facts.ends.keys().filter_map(|it| match it {
             End::Thrown(node) => Some(node.unwrap_or(0)),
-            End::Answered(_) => None,
+            End::Answered(_) | End::Halted => None,
         });
         let mut entered = Vec::new();
         for node in thrown {

@@ -208,7 +208,7 @@ impl<'t> Machine<'t> {
     /// Ticks the root once, up to the first question.
     pub fn tick(&mut self) -> Stop {
         self.pass();
-        self.ask_net().unwrap_or_else(|| self.run(Cursor::Timers(None)))
+        self.ask_net().unwrap_or_else(|| self.reply_rest())
     }
 
     /// Gives the reply to the question at which the tick stopped.
@@ -250,6 +250,9 @@ impl<'t> Machine<'t> {
 
     /// Goes on when the supervisor has done what it does.
     fn reply_rest(&mut self) -> Stop {
+        if let Some(stop) = self.cancelled() {
+            return stop;
+        }
         let ticks = self.take_gone_off();
         self.run(if ticks { Cursor::Enter(0) } else { Cursor::Timers(None) })
     }

@@ -210,6 +210,7 @@ impl Walk<'_, '_> {
             Stop::Answered(Answer::Running) => None,
             Stop::Answered(it) => Some(End::Answered(it)),
             Stop::Thrown(it) => Some(End::Thrown(it.node)),
+            Stop::Halted => Some(End::Halted),
         };
         if let Some(it) = self.condition {
             self.found.held[it.holds(&self.machine, end.is_some()) as usize] = true;

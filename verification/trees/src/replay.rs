@@ -52,6 +52,7 @@ pub fn frames(tree: &Tree, run: &Run) -> Result<Vec<Frame>, usize> {
             }
             Stop::Asked(_) => return Err(at + 1),
             Stop::Answered(answer) => answer.letter().to_string(),
+            Stop::Halted => "H".to_owned(),
             Stop::Thrown(thrown) => match thrown.node {
                 Some(node) => format!("X@{}: {}", tree.nodes[node].name, thrown.why),
                 None => format!("X: {}", thrown.why),

@@ -118,6 +118,15 @@ pub enum Sight {
     After(Vec<u16>),
 }
 
+/// Returns the transitions that sights wait for.
+pub(crate) fn after(when: &[Sight]) -> Vec<u16> {
+    let lists = when.iter().filter_map(|it| match it {
+        Sight::After(all) => Some(all.iter().copied()),
+        _ => None,
+    });
+    lists.flatten().collect()
+}
+
 /// Sights, of which one is enough.
 pub type When = Vec<Sight>;
 
@@ -149,15 +158,7 @@ pub struct Acts {
 impl Acts {
     /// Returns the transitions that it waits for to succeed, and to fail.
     pub(crate) fn after(&self) -> [Vec<u16>; 2] {
-        let all = |when: &Option<When>| {
-            let sights = when.iter().flatten();
-            let lists = sights.filter_map(|it| match it {
-                Sight::After(all) => Some(all.clone()),
-                _ => None,
-            });
-            lists.flatten().collect()
-        };
-        [all(&self.succeeds), all(&self.fails)]
+        [&self.succeeds, &self.fails].map(|it| after(it.as_deref().unwrap_or_default()))
     }
 }
 
@@ -179,6 +180,8 @@ pub struct Bonds {
     pub moves: Vec<usize>,
     /// Bond of each node.
     pub of: Vec<Option<Bond>>,
+    /// Sights upon which the whole tree is halted before a tick.
+    pub cancels: When,
 }
 
 impl Bonds {

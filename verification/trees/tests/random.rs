@@ -139,7 +139,7 @@ impl Maker {
                             Some(node) => format!("X@{}", tree.nodes[node].name),
                             None => "X".to_owned(),
                         },
-                        Stop::Asked(_) => unreachable!("it was answered"),
+                        Stop::Asked(_) | Stop::Halted => unreachable!("it was answered"),
                     };
                     if !once || status != "R" || !machine.take_wake() {
                         return status;
@@ -270,7 +270,7 @@ fn walks_through_what_the_second_program_explored_are_walks_of_ours() {
                 Stop::Thrown(it) => {
                     it.node.map_or("X".to_owned(), |it| format!("X@{}", tree.nodes[it].name))
                 }
-                Stop::Asked(_) => unreachable!("it was answered"),
+                Stop::Asked(_) | Stop::Halted => unreachable!("it was answered"),
             };
             assert_eq!(status, rows[at][3], "{number}.xml, run {run}");
             at += 1;

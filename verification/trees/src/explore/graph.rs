@@ -11,6 +11,8 @@ pub enum End {
     Answered(Answer),
     /// An exception, with the node that the library names.
     Thrown(Option<usize>),
+    /// The supervisor halts the tree.
+    Halted,
 }
 
 impl End {
@@ -18,6 +20,7 @@ impl End {
     pub fn shown(self, tree: &Tree) -> String {
         match self {
             End::Answered(it) => it.letter().to_string(),
+            End::Halted => "H".to_owned(),
             End::Thrown(None) => "X".to_owned(),
             End::Thrown(Some(node)) => format!("X@{}", tree.nodes[node].label),
         }

@@ -27,6 +27,7 @@ impl Space<'_> {
                     Sight::Asks(node, runs && self.at(point).status(node) == Status::Running)
                 }
                 What::End(End::Answered(it)) => Sight::End(it as u8, 0),
+                What::End(End::Halted) => Sight::End(10, 0),
                 What::End(End::Thrown(node)) => Sight::End(9, node.map_or(0, |it| it + 1)),
             };
             let next = names.len() as u32;

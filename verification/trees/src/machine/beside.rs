@@ -1,7 +1,7 @@
 //! The supervisor beside a tree: its own moves before a tick, and leaves that act on it.
 
 use super::{Event, How, Machine, Move, Question, Reply, Status, Stop, words};
-use crate::supervisor::{Acts, Bond, Bonds, Part, Sight, Taken, When};
+use crate::supervisor::{Acts, Bond, Bonds, Part, Sight, Taken, When, after};
 use crate::tree::{Answer, Tree};
 
 /// Cells of a supervisor.
@@ -10,6 +10,8 @@ pub(super) struct Beside {
     cell: usize,
     /// For each leaf that waits for transitions, the cell that notes those that fired.
     latches: Vec<Option<usize>>,
+    /// The cell that notes a transition upon which the tree is halted, where one is waited for.
+    cancelled: Option<usize>,
     /// Whether a property asks for its places.
     watched: bool,
 }
@@ -47,7 +49,12 @@ impl<'t> Machine<'t> {
             })
         });
         let latches = latches.collect();
-        self.beside = Some(Beside { cell, latches, watched: false });
+        let cancelled = (!after(&bonds.cancels).is_empty()).then(|| {
+            self.cells.push(0);
+            self.layout.widths.push(1);
+            self.cells.len() - 1
+        });
+        self.beside = Some(Beside { cell, latches, cancelled, watched: false });
     }
 
     pub(super) fn bonds(&self) -> Option<&'t Bonds> {
@@ -150,6 +157,10 @@ impl<'t> Machine<'t> {
         };
         let (to, taken, fired) = bonds.net.offer(self.cells[beside.cell], event);
         self.cells[beside.cell] = to;
+        if let Some(cell) = beside.cancelled {
+            let waited = after(&bonds.cancels);
+            self.cells[cell] |= fired.iter().any(|it| waited.contains(it)) as u32;
+        }
         for (node, cell) in beside.latches.iter().enumerate() {
             let (Some(cell), Some(Bond::Acts(acts))) = (*cell, &bonds.of[node]) else { continue };
             if starts != Some(node) && self.cells[node] != Status::Running as u32 {
@@ -206,6 +217,21 @@ impl<'t> Machine<'t> {
                 let cell = self.beside.as_ref().and_then(|it| it.latches[node]);
                 cell.is_some_and(|it| self.cells[it] >> bit & 1 == 1)
             }
+        })
+    }
+
+    /// Halts the tree if the supervisor cancels it.
+    pub(super) fn cancelled(&mut self) -> Option<Stop> {
+        let bonds = self.bonds()?;
+        let noted = self.beside.as_ref().and_then(|it| it.cancelled);
+        let is_so = bonds.cancels.iter().any(|it| match it {
+            Sight::At(place) => self.is_marked(*place),
+            Sight::NotAt(place) => !self.is_marked(*place),
+            Sight::After(_) => noted.is_some_and(|it| self.cells[it] == 1),
+        });
+        is_so.then(|| match self.halt_tree() {
+            Ok(()) => Stop::Halted,
+            Err(thrown) => Stop::Thrown(thrown),
         })
     }
 

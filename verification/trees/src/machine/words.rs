@@ -195,4 +195,6 @@ pub enum Stop {
     Answered(Answer),
     /// An exception; the run is over.
     Thrown(Thrown),
+    /// The supervisor has halted the tree before a tick; the run is over.
+    Halted,
 }

@@ -57,6 +57,8 @@ pub struct Bindings {
     lines: Vec<Line>,
     /// Events that do not happen.
     never: Vec<Word>,
+    /// Sights upon which the tree is halted.
+    cancels: Sights,
 }
 
 /// A leaf and its clauses.
@@ -77,8 +79,8 @@ impl Bindings {
     /// Reads a file. A line has a leaf and clauses: `starts EVENT` or `tries EVENT`, `succeeds
     /// WHEN`, `fails WHEN`, `halts EVENT`; of a condition `reads WHEN`. WHEN is `at PLACE`, `not at
     /// PLACE`, `after TRANSITION`, `upon OUTPUT`, or several with `or` between them. Or it has
-    /// `never` and events that do not happen. `#` begins a comment; names with blanks stand in
-    /// double quotes.
+    /// `never` and events that do not happen, or `cancel WHEN`: then the tree is halted before its
+    /// next tick. `#` begins a comment; names with blanks stand in double quotes.
     ///
     /// # Errors
     /// Returns the first mistake.
@@ -92,6 +94,14 @@ impl Bindings {
                     return Err(leaf.wrong("after `never` stand events".to_owned()));
                 }
                 all.never.extend_from_slice(rest);
+                continue;
+            }
+            if leaf.text == "cancel" {
+                let (sights, rest) = when(leaf, rest)?;
+                if let Some(word) = rest.first() {
+                    return Err(word.wrong("nothing is expected here".to_owned()));
+                }
+                all.cancels.extend(sights);
                 continue;
             }
             if let Some(known) = all.lines.iter().find(|it| it.leaf.text == leaf.text) {
@@ -274,7 +284,8 @@ impl Bindings {
             }
         }
         let moves = self.moves(&of, &net)?;
-        tree.bonds = Some(Box::new(Bonds { net, moves, of }));
+        let cancels = seen(&self.cancels, &net)?;
+        tree.bonds = Some(Box::new(Bonds { net, moves, of, cancels }));
         Ok(())
     }
 
