@@ -1,6 +1,5 @@
 //! `--with` and `--bind`: a supervisor beside a tree.
 
-use super::TREE_BYTES;
 use crate::args::TreeArgs;
 use crate::exit::Failure;
 use crate::file_errors::FileErrors;
@@ -9,6 +8,9 @@ use crate::model;
 use cotama_trees::kinds::{Leaf, nav2};
 use cotama_trees::supervisor::{Bindings as Written, Supervisor, Unfit, Wrong};
 use cotama_trees::tree::Tree;
+
+/// Most bytes of a file that binds leaves.
+const MOST_BYTES: u64 = 1 << 20;
 
 /// A file of bonds, as it is written.
 pub(super) struct Bindings {
@@ -22,7 +24,7 @@ impl Bindings {
     /// Reads the file, if one is given.
     pub(super) fn read(args: &TreeArgs) -> Result<Option<Self>, Failure> {
         let (Some(supervisor), Some(path)) = (&args.with, &args.bind) else { return Ok(None) };
-        let text = input::text(path, "a file that binds leaves", TREE_BYTES)?;
+        let text = input::text(path, "a file that binds leaves", MOST_BYTES)?;
         let written = Written::read(&text).map_err(|it| wrong(path, &text, it))?;
         Ok(Some(Self { supervisor: supervisor.clone(), path: path.clone(), text, written }))
     }

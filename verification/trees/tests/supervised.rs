@@ -319,7 +319,7 @@ fn events_that_never_happen_leave_their_states_out() {
     let net = |never: &[&str]| Supervisor::of(&System::alone(&alone), None, never).unwrap();
     let calm = net(&["Obstacle", "close"]);
     assert_eq!((net(&[]).states, calm.states), (8, 3));
-    let tree = bound(nodes, &format!("{OPENS}\nnever Obstacle close"), calm);
+    let tree = bound(nodes, &format!("{OPENS}\nnever Obstacle close\nnever close"), calm);
     assert_eq!(asked(&tree, "AG !(A1.running & net.Closing)").0, Some(true));
     let moves = &tree.bonds.as_deref().unwrap().moves;
     assert_eq!(moves.len(), 3);

@@ -5,6 +5,7 @@ use crate::diagnostic::nearest;
 use crate::kinds::{Leaf, LeafKind};
 use crate::machine::MOST_MOVES;
 use crate::tree::{Kind, Node, Tree};
+use std::collections::BTreeMap;
 
 /// A mistake in a file, with the remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -86,6 +87,7 @@ impl Bindings {
     /// Returns the first mistake.
     pub fn read(text: &str) -> Result<Bindings, Wrong> {
         let mut all = Bindings::default();
+        let mut known = BTreeMap::new();
         for (at, line) in text.lines().enumerate() {
             let words = words(line, at + 1)?;
             let Some((leaf, rest)) = words.split_first() else { continue };
@@ -104,8 +106,8 @@ impl Bindings {
                 all.cancels.extend(sights);
                 continue;
             }
-            if let Some(known) = all.lines.iter().find(|it| it.leaf.text == leaf.text) {
-                let message = format!("{} is bound in line {} already", leaf.text, known.leaf.line);
+            if let Some(line) = known.insert(leaf.text.clone(), leaf.line) {
+                let message = format!("{} is bound in line {line} already", leaf.text);
                 return Err(leaf.wrong(message));
             }
             all.lines.push(clauses(leaf, rest)?);
@@ -295,17 +297,19 @@ impl Bindings {
             Bond::Acts(it) => [it.starts, it.halts],
             Bond::Reads(_) => [None, None],
         });
-        let mut left: Vec<_> = events.flatten().chain(net.pass).collect();
+        let offered: Vec<_> = events.flatten().chain(net.pass).collect();
+        let mut happens = vec![true; net.events.len()];
+        offered.iter().for_each(|it| happens[*it] = false);
         for word in &self.never {
             let Some(at) = net.events.iter().position(|it| *it == word.text) else {
                 return Err(word.unknown("event", net.events.iter().map(String::as_str)));
             };
-            if left.contains(&at) {
+            if offered.contains(&at) {
                 return Err(word.wrong(format!("a leaf offers {}", word.text)));
             }
-            left.push(at);
+            happens[at] = false;
         }
-        let moves: Vec<_> = (0..net.events.len()).filter(|it| !left.contains(it)).collect();
+        let moves: Vec<_> = (0..net.events.len()).filter(|it| happens[*it]).collect();
         if moves.len() <= MOST_MOVES {
             return Ok(moves);
         }
