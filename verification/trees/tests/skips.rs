@@ -56,7 +56,7 @@ fn a_try_forgets_what_was_skipped_before_it_caught() {
 
 #[test]
 fn a_decorator_whose_child_skips_still_runs_and_is_halted() {
-    for tag in ["Inverter", "ForceSuccess", "ForceFailure"] {
+    for tag in ["Inverter", "ForceSuccess", "ForceFailure", "SingleTrigger"] {
         let inner = format!("<Sequence><{tag} _onHalted=\"x := 1\"><C1/></{tag}></Sequence>");
         assert_eq!(played(&inner, &["K"]), ["C1:K K x=1"], "{tag}");
     }
