@@ -26,13 +26,18 @@ pub(crate) fn nearest<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> O
 pub fn unknown<'n>(
     what: &str,
     name: &str,
-    known: impl Iterator<Item = &'n str> + Clone,
+    known: impl Iterator<Item = &'n str>,
 ) -> (String, String) {
+    unknown_among(what, name, &known.collect::<Vec<_>>())
+}
+
+/// Works on a list, as there are forty kinds of iterators, and it is built for each.
+fn unknown_among(what: &str, name: &str, names: &[&str]) -> (String, String) {
     let message = format!("unknown {what} {}", quoted(name));
-    if let Some(near) = nearest(name, known.clone()) {
+    if let Some(near) = nearest(name, names.iter().copied()) {
         return (format!("{message}; did you mean `{near}`?"), format!("write `{near}`"));
     }
-    let names: Vec<&str> = known.take(20).collect();
+    let names = &names[..names.len().min(20)];
     let help = if names.is_empty() {
         "none is defined".into()
     } else {

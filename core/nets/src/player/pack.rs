@@ -9,9 +9,14 @@ use super::machine::{machine, needs_state};
 use crate::net::data::{EventId, OutputId};
 use crate::system::data::{Delivery, Of, System};
 
-/// So many of the needs and deltas before are looked through for an equal one: most repeat nearby,
-/// and the time of packing is linear.
-const NEARBY: usize = 256;
+/// The bits of a hash of needs and deltas: one equal to an earlier one is found in one step, unless
+/// another of the same hash came between them.
+const HASH_BITS: u32 = 9;
+
+/// The position of the latest words of each hash, or [`NONE`].
+type Latest = [u16; 1 << HASH_BITS];
+
+const NOWHERE: Latest = [NONE; 1 << HASH_BITS];
 
 /// Packs a system. The lists are as long as [`size`](super::size::size) says, `W` is
 /// [`Size::words`](super::code::Size::words) or more, and the system and its nets have no defect.
@@ -207,6 +212,7 @@ const fn transition<'s>(
 
 /// The words of the entries.
 const fn arcs<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>, words: &mut Words<W>) {
+    let (mut needs, mut deltas): (Latest, Latest) = (NOWHERE, NOWHERE);
     let mut at = 0;
     while at < lists.entries.len() {
         let number = lists.entries[at].transition;
@@ -216,31 +222,45 @@ const fn arcs<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>, wor
         if !lists.takes.is_empty() {
             lists.takes[number as usize] = take;
         }
-        lists.entries[at].need = once(lists.needs, &mut words.needs, &need);
-        lists.entries[at].delta = once(lists.deltas, &mut words.deltas, &delta);
+        lists.entries[at].need = once(lists.needs, &mut words.needs, &need, &mut needs);
+        lists.entries[at].delta = once(lists.deltas, &mut words.deltas, &delta, &mut deltas);
         at += 1;
     }
 }
 
-/// The position of these words in a list of so many, to which they are added unless they stand
-/// nearby. Single words are always added: they are as short as a position, and found without one.
-const fn once<const W: usize>(list: &mut [[u64; W]], count: &mut u16, words: &[u64; W]) -> u16 {
-    let end = *count as usize;
-    let mut at = if W == 1 { 0 } else { end };
-    let first = end.saturating_sub(NEARBY);
-    while at > first {
-        at -= 1;
-        let mut word = 0;
-        while word < W && list[at][word] == words[word] {
+/// The position of these words in a list of so many, to which they are added unless the latest of
+/// their hash are equal. Single words are always added: they are as short as a position, and found
+/// without one.
+const fn once<const W: usize>(
+    list: &mut [[u64; W]],
+    count: &mut u16,
+    words: &[u64; W],
+    latest: &mut Latest,
+) -> u16 {
+    let end = *count;
+    if W > 1 {
+        let (mut hash, mut word) = (0, 0);
+        while word < W {
+            hash = (hash ^ words[word]).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+            hash ^= hash >> 32;
             word += 1;
         }
-        if word == W {
-            return at as u16;
+        let slot = &mut latest[(hash as u32 >> (32 - HASH_BITS)) as usize];
+        if *slot != NONE {
+            let before = &list[*slot as usize];
+            word = 0;
+            while word < W && before[word] == words[word] {
+                word += 1;
+            }
+            if word == W {
+                return *slot;
+            }
         }
+        *slot = end;
     }
-    list[end] = *words;
+    list[end as usize] = *words;
     *count += 1;
-    end as u16
+    end
 }
 
 /// See [`Words::restless`]: the first place that each transition needs which fires at once by

@@ -17,6 +17,7 @@
 
 pub mod delivery;
 pub mod patrol;
+pub mod rows;
 
 use cotama_core::hardware::Equipment;
 use cotama_core::problem::Candidate;

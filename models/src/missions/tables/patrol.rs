@@ -1,26 +1,9 @@
 //! The activities of the mission `patrol`, printed from its file.
 
-use cotama_core::{hardware::Equipment, units::Millimetres};
+use cotama_core::hardware::Equipment;
+#[allow(unused_imports)] // a mission may stand nowhere
+use cotama_models::missions::tables::rows::{activity, stand, travel, units};
 use cotama_models::missions::tables::{Activity, Alternative};
-
-const fn units(bits: u64) -> Equipment {
-    match Equipment::from_bits(bits) {
-        Some(units) => units,
-        None => panic!("a count of units passes its field"), // of constants: an error when compiled
-    }
-}
-
-const fn activity(x_start: u64, x_end: u64, alternatives: &[Alternative]) -> Activity<'_> {
-    Activity { x_start: Millimetres(x_start), x_end: Millimetres(x_end), alternatives }
-}
-
-const fn travel(speed_mm_s: u64, power_mw: u64, needs: u64, quality: u32) -> Alternative {
-    Alternative::travelling(speed_mm_s, power_mw, units(needs), quality)
-}
-
-const fn stand(duration_ms: u64, power_mw: u64, needs: u64, quality: u32) -> Alternative {
-    Alternative::standing(duration_ms, power_mw, units(needs), quality)
-}
 
 /// The inclusive limits, in ms and mJ.
 pub const LIMITS: [u64; 2] = [600_000, 8_640_000];
