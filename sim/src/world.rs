@@ -223,6 +223,7 @@ impl<'s> World<'s> {
                 None => self.finish(),
             }
         }
+        debug_assert!(self.is_sound());
         let (outcome, reason) = self.ended?;
         let run = self.result(outcome, reason);
         if R::WANTED {
@@ -253,7 +254,8 @@ impl<'s> World<'s> {
 
     /// Lets time pass on the current leg.
     fn advance(&mut self, time_us: u64) {
-        let passed = time_us.saturating_sub(self.time_us);
+        debug_assert!(time_us >= self.time_us, "time goes back");
+        let passed = time_us - self.time_us;
         if passed == 0 {
             return;
         }
@@ -270,6 +272,20 @@ impl<'s> World<'s> {
         } else {
             self.standing_us = self.standing_us.saturating_sub(passed);
         }
+    }
+
+    /// Returns whether it is within its activity, and its power error and next event are of here.
+    fn is_sound(&self) -> bool {
+        let activities = &self.simulation.plannable.activities;
+        let within = activities.get(self.activity).is_some_and(|it| {
+            let (start, end) = (it.x_start.0 * NM_PER_MM, it.x_end.0 * NM_PER_MM);
+            start <= self.x_nm && self.x_nm <= end && (!self.done || self.x_nm == end)
+        });
+        let passed = |it: &[Pending]| it.iter().all(|it| it.x_nm <= self.x_nm);
+        let ahead = |it: &[Pending]| it.iter().all(|it| it.x_nm >= self.x_nm);
+        let (before, after) = self.events.split_at(self.next_event);
+        let here = self.segments.get(self.segment).is_some_and(|it| it.0 <= self.x_nm);
+        within && passed(before) && ahead(after) && here
     }
 
     fn take(&mut self, us: u64, power_uw: u64) {

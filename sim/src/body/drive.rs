@@ -39,8 +39,10 @@ impl Drive {
         let after = towards.0.clamp(least, most);
         let way = (self.speed_mm_s.saturating_add(after)).saturating_mul(time.0) / 2;
         let end = end.0.saturating_mul(1000).max(self.x_um);
+        let before = self.x_um;
         self.x_um = self.x_um.saturating_add(way).min(end);
         self.speed_mm_s = if self.x_um == end { 0 } else { after };
+        debug_assert!(before <= self.x_um && self.x_um <= end, "it drives on, and no further");
     }
 
     /// Whether it has gone on evenly since it was as before, for this time.
@@ -64,6 +66,7 @@ impl Drive {
 
     /// Puts it so far back along its path; the speed stays.
     pub(crate) fn set_back(&mut self, way: Millimetres) {
+        debug_assert!(way.0 * 1000 <= self.x_um, "it is set back no further than it came");
         self.x_um = self.x_um.saturating_sub(way.0.saturating_mul(1000));
     }
 

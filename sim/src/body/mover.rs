@@ -244,6 +244,7 @@ impl Moves for Mover<'_> {
                 let taken = way.min(owed.0);
                 drive.set_back(Millimetres(taken));
                 owed.0 -= taken;
+                debug_assert!(drive.x() >= before, "a way beside the path is none along it");
             }
             Self::Plane(it) => it.go(towards, end, time),
             Self::Signal(it) => it.go(towards, end, time),

@@ -243,8 +243,11 @@ impl Driver {
 
     /// The robot goes on, period by period, until now.
     fn go(&mut self, now: u64) {
-        let orders = self.orders();
+        let (orders, energy_uj) = (self.orders(), self.moving.energy_uj);
         self.moving.go(now, &orders);
+        debug_assert!(self.moving.energy_uj >= energy_uj, "energy is used, and not won");
+        debug_assert!(self.moving.now <= now, "periods that are over are simulated");
+        debug_assert!(now - self.moving.now < self.period() || now < self.moving.now);
     }
 
     /// A round. `done` says that what is taken or given at this place is taken or given.

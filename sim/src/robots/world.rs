@@ -272,6 +272,21 @@ impl<'m, P: Program<W, 0, S>, const W: usize, const S: usize> World<'m, P, W, S>
             self.round(recording);
         }
         self.now.0 += self.body.period.0;
+        debug_assert!(self.is_sound());
+    }
+
+    /// Returns whether what is planned, known and driven fits together.
+    fn is_sound(&self) -> bool {
+        let places = self.now.0.is_multiple_of(self.body.period.0)
+            && self.place_since <= self.now
+            && self.objective_since <= self.now
+            && self.objective <= self.mission.objectives.len();
+        let failures = self.until.len() == self.failures.all.len()
+            && self.run.conduct.len() == self.failures.all.len();
+        let found = self.run.conduct.iter().all(|it| {
+            it.injected <= self.now && it.detected.is_none_or(|found| found >= it.injected)
+        });
+        places && failures && found && self.drive.speed() <= self.body.speed_max
     }
 
     /// Whether margins are looked at in this period: once a second.

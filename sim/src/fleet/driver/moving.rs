@@ -118,6 +118,7 @@ impl Moving {
                 continue;
             }
             self.drive.glide(times, Millis(period));
+            debug_assert!(orders.leg.is_none_or(|it| self.drive.x() <= it), "a drive ends");
             if thinks {
                 self.failures.look_on(kind.robot, orders.place, times);
             }

@@ -6,6 +6,7 @@ mod awards;
 mod bidding;
 mod office;
 mod robot;
+mod sound;
 mod succession;
 mod supply;
 #[cfg(test)]
@@ -178,6 +179,7 @@ impl<'s> World<'s> {
     /// Runs in the same way, and lets somebody look at the world after each event.
     fn run_and_look(mut self, mut look: impl FnMut(&Self)) -> (Run, Vec<Record>) {
         while let Some((now, event)) = self.queue.pop() {
+            debug_assert!(now >= self.now, "time goes back");
             if now > self.stirred + STUCK || self.open == 0 {
                 break;
             }
@@ -197,6 +199,7 @@ impl<'s> World<'s> {
                 Event::Charged(robot) => self.charged(robot),
             }
             self.copy_first();
+            debug_assert_eq!(self.defect(), None, "after an event at {now} ms");
             look(&self);
         }
         let tasks = self.scenario.tasks.iter().zip(&self.run.fates);

@@ -15,7 +15,10 @@ impl World<'_> {
     /// Returns what is left in the battery of a robot, in mJ; `None` where nobody counts it.
     fn left_mj(&self, robot: usize) -> Option<u64> {
         let agent = &self.robots[robot];
-        Some(agent.charge.as_ref()?.left_mj(self.now, &agent.driver))
+        let charge = agent.charge.as_ref()?;
+        let left = charge.left_mj(self.now, &agent.driver);
+        debug_assert!(left <= charge.full_mj, "a battery holds no more than it can");
+        Some(left)
     }
 
     /// Whether the charge of a robot is too little for a role and the way home.
