@@ -281,11 +281,11 @@ impl<'s> World<'s> {
             let (start, end) = (it.x_start.0 * NM_PER_MM, it.x_end.0 * NM_PER_MM);
             start <= self.x_nm && self.x_nm <= end && (!self.done || self.x_nm == end)
         });
-        let passed = |it: &[Pending]| it.iter().all(|it| it.x_nm <= self.x_nm);
-        let ahead = |it: &[Pending]| it.iter().all(|it| it.x_nm >= self.x_nm);
-        let (before, after) = self.events.split_at(self.next_event);
+        let next = self.events.get(self.next_event).is_none_or(|it| it.x_nm >= self.x_nm);
+        let last = self.next_event.checked_sub(1).and_then(|it| self.events.get(it));
+        let last = last.is_none_or(|it| it.x_nm <= self.x_nm);
         let here = self.segments.get(self.segment).is_some_and(|it| it.0 <= self.x_nm);
-        within && passed(before) && ahead(after) && here
+        within && last && next && here
     }
 
     fn take(&mut self, us: u64, power_uw: u64) {
