@@ -78,13 +78,13 @@ impl fmt::Display for Source<'_> {
     }
 }
 
-const HEAD: &str = r#"
+const HEAD: &str = "
 use cotama_core::hardware::Equipment;
 #[allow(unused_imports)] // a mission may stand nowhere
 use cotama_models::missions::tables::rows::{activity, stand, travel, units};
 use cotama_models::missions::tables::{Activity, Alternative};
 
-"#;
+";
 
 /// The index of a value, which is appended when it is new.
 fn place<T: PartialEq>(values: &mut Vec<T>, value: T) -> usize {
