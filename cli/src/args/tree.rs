@@ -26,7 +26,7 @@ pub(crate) struct TreeArgs {
     /// A supervisor beside the tree: a net or a system, by name or file
     #[arg(long, value_name = "MODEL", requires = "bind")]
     pub(crate) with: Option<String>,
-    /// Which leaves act on the supervisor: lines as `Open starts Call succeeds at Open`
+    /// Binds leaves to the supervisor by a file of lines as `Open starts Call succeeds at Open`
     #[arg(long, value_name = "FILE", requires = "with")]
     pub(crate) bind: Option<String>,
 }

@@ -247,7 +247,7 @@ impl Driver {
         self.moving.go(now, &orders);
         debug_assert!(self.moving.energy_uj >= energy_uj, "energy is used, and not won");
         debug_assert!(self.moving.now <= now, "periods that are over are simulated");
-        debug_assert!(now - self.moving.now < self.period() || now < self.moving.now);
+        debug_assert!(now - self.moving.now < self.period(), "no period is left out");
     }
 
     /// A round. `done` says that what is taken or given at this place is taken or given.

@@ -18,7 +18,7 @@ mod property;
 mod runs;
 mod unwritten;
 
-use crate::machine::{Event, How, Machine, Question, Reply, Status, Stop, Vain};
+use crate::machine::{Event, How, Machine, Question, Reply, Status, Stop, Vain, Watched};
 use crate::supervisor::Part;
 use crate::tree::{Answer, Tree};
 pub use assume::{Assumption, Assumptions, parse_assumption};
@@ -99,15 +99,15 @@ impl<'t> Space<'t> {
         assumptions: Assumptions,
         limits: Limits,
     ) -> Space<'t> {
-        Space::watching(tree, skips, assumptions, &[], limits)
+        Space::watching(tree, skips, assumptions, &Watched::default(), limits)
     }
 
-    /// Explores a tree and keeps what these nodes answered in the last tick.
+    /// Explores a tree and keeps what is watched of the last tick.
     pub(crate) fn watching(
         tree: &'t Tree,
         skips: bool,
         mut assumptions: Assumptions,
-        watched: &[usize],
+        watched: &Watched,
         limits: Limits,
     ) -> Space<'t> {
         let mut machine = Machine::new(tree);

@@ -15,6 +15,7 @@ mod leaves;
 mod nav2;
 mod parallel;
 mod timers;
+mod watched;
 mod words;
 
 use crate::tree::{Answer, Kind, Tree};
@@ -23,6 +24,7 @@ pub(crate) use boards::Store;
 pub(crate) use cells::Layout;
 use std::fmt;
 use timers::Beat;
+pub(crate) use watched::Watched;
 pub use words::{Event, How, MOST_MOVES, Question, Reply, Status, Stop, Thrown};
 
 /// The cause of an exception, before a node is named.
@@ -148,20 +150,6 @@ impl<'t> Machine<'t> {
     #[inline]
     pub fn status(&self, node: usize) -> Status {
         Status::of_code(self.cells[node])
-    }
-
-    /// Makes a cell for each node, which notes its answer of the tick; the largest number is
-    /// the supervisor.
-    pub(crate) fn watch(&mut self, nodes: &[usize]) {
-        for &node in nodes {
-            if node == usize::MAX {
-                self.watch_net();
-                continue;
-            }
-            self.watched[node] = Some(self.cells.len());
-            self.cells.push(0);
-            self.layout.widths.push(3);
-        }
     }
 
     /// Returns what happened since the last call.

@@ -5,7 +5,7 @@
 //! and short on purpose.
 
 use crate::explore::{Assumptions, Condition, End, Property};
-use crate::machine::{How, Machine, Question, Reply, Status, Stop};
+use crate::machine::{How, Machine, Question, Reply, Status, Stop, Watched};
 use crate::supervisor::Part;
 use crate::tree::{Answer, Tree};
 use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
@@ -81,10 +81,8 @@ pub fn walk(
         Some(_) => return None,
         None => None,
     };
-    let mut watched = Vec::new();
+    let mut watched = Watched::default();
     condition.iter().for_each(|it| it.watched(&mut watched));
-    watched.sort_unstable();
-    watched.dedup();
     machine.watch(&watched);
     assumptions.reserve(&mut machine);
     let actions = (0..tree.nodes.len()).filter(|it| tree.nodes[*it].is_action()).collect();

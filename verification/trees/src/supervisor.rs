@@ -58,7 +58,7 @@ pub struct Supervisor {
     pub name: String,
     /// Names of events from outside, then of transitions that time lets fire, then of a round.
     pub events: Vec<String>,
-    /// How many of them come from outside.
+    /// Number of events that come from outside, the first ones.
     pub told: usize,
     /// The event that lets time pass up to the next tick, where time counts.
     pub pass: Option<usize>,
@@ -118,13 +118,15 @@ pub enum Sight {
     After(Vec<u16>),
 }
 
-/// Returns the transitions that sights wait for.
-pub(crate) fn after(when: &[Sight]) -> Vec<u16> {
-    let lists = when.iter().filter_map(|it| match it {
-        Sight::After(all) => Some(all.iter().copied()),
-        _ => None,
-    });
-    lists.flatten().collect()
+/// Returns whether sights wait for transitions.
+pub(crate) fn waits(when: &[Sight]) -> bool {
+    when.iter().any(|it| matches!(it, Sight::After(all) if !all.is_empty()))
+}
+
+/// Returns whether sights wait for one of the transitions that fired.
+pub(crate) fn waited_for(when: &[Sight], fired: &[u16]) -> bool {
+    let is = |all: &[u16]| fired.iter().any(|it| all.contains(it));
+    when.iter().any(|it| matches!(it, Sight::After(all) if is(all)))
 }
 
 /// Sights, of which one is enough.
@@ -144,8 +146,8 @@ pub enum Bond {
 pub struct Acts {
     /// The event by which it starts.
     pub starts: Option<usize>,
-    /// Whether it is no fault that the event is ignored; then FAILURE, also where it is ignored on
-    /// purpose.
+    /// Takes an event that is ignored for FAILURE, also where it is ignored on purpose, and not for a
+    /// fault.
     pub tries: bool,
     /// SUCCESS; at once where neither this nor `fails` is given.
     pub succeeds: Option<When>,
@@ -156,18 +158,18 @@ pub struct Acts {
 }
 
 impl Acts {
-    /// Returns the transitions that it waits for to succeed, and to fail.
-    pub(crate) fn after(&self) -> [Vec<u16>; 2] {
-        [&self.succeeds, &self.fails].map(|it| after(it.as_deref().unwrap_or_default()))
+    /// Returns the sights upon which it succeeds, and fails.
+    pub(crate) fn ends(&self) -> [&[Sight]; 2] {
+        [&self.succeeds, &self.fails].map(|it| it.as_deref().unwrap_or_default())
     }
 }
 
-/// Which of its events a leaf offers to the supervisor.
+/// Part of a leaf's life in which it offers an event to the supervisor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
-    /// That which it starts by.
+    /// The leaf starts.
     Starts,
-    /// That which it is halted by.
+    /// The leaf is halted.
     Halts,
 }
 

@@ -139,7 +139,7 @@ fn a_drive_that_is_halted_unheard_is_in_the_way_of_the_next() {
     assert!(refused[1].0.starts_with("Drive is halted by op_goal_reached"), "{refused:?}");
 }
 
-/// Offers the door what a tree's tick says that it was offered, and says when it did otherwise.
+/// Offers the door each event that a tree's tick offered, and panics where it did otherwise.
 fn play(door: &mut door::Player, tree: &Tree, event: Event, now: &mut Millis) {
     let bonds = tree.bonds.as_deref().unwrap();
     let (name, accepted) = match event {
@@ -208,8 +208,8 @@ fn walks(count: usize, period: Option<u32>) -> usize {
     ticks
 }
 
-/// What actions and services, conditions, and leaves that end at once do to a supervisor, and what
-/// it does to one tree of three.
+/// Lines of actions and services, of conditions, of leaves that end at once, and of the supervisor's
+/// own doing in one tree of three.
 type Lines = [&'static [&'static str]; 4];
 
 const DRIVES: Lines = [

@@ -80,3 +80,21 @@ fn a_task_is_withdrawn_until_the_last_award_has_run_out() {
     }
     assert_eq!(states, [State::Withdrawn, State::Open]);
 }
+
+#[test]
+fn a_broken_law_of_a_run_is_named() {
+    let scenario = two_robots();
+    let (world, _) = awarded(&scenario);
+    assert_eq!(world.defect(), None);
+    let broken = |break_it: &dyn Fn(&mut World<'_>)| {
+        let (mut world, _) = awarded(&scenario);
+        break_it(&mut world);
+        world.defect()
+    };
+    let open = "as many tasks are open as have neither been done nor reported";
+    assert_eq!(broken(&|it| it.open += 1), Some(open));
+    let held = "an object is on board of the robot that holds it";
+    assert_eq!(broken(&|it| it.robots[0].holds = Some(0)), Some(held));
+    let begun = "a stage and a role have begun before now";
+    assert_eq!(broken(&|it| it.robots[0].stage_since = 1), Some(begun));
+}

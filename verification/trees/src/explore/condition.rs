@@ -1,6 +1,6 @@
 //! Conditions on a tree, and the supervisor beside it, after a tick.
 
-use crate::machine::{Machine, Status};
+use crate::machine::{Machine, Status, Watched};
 use crate::tree::Answer;
 
 /// A condition on the nodes after a tick.
@@ -12,7 +12,7 @@ pub enum Condition {
     Has(usize, Status),
     /// A node's last answer within the tick.
     Answers(usize, Answer),
-    /// Whether a node was ticked.
+    /// A node was ticked.
     Ticked(usize),
     /// A place of the supervisor is marked.
     Marked(usize),
@@ -27,11 +27,13 @@ pub enum Condition {
 }
 
 impl Condition {
-    /// Returns the nodes whose answers within a tick are asked for.
-    pub(crate) fn watched(&self, into: &mut Vec<usize>) {
+    /// Adds what the condition asks for beyond the status of nodes.
+    pub(crate) fn watched(&self, into: &mut Watched) {
         match self {
-            Condition::Answers(node, _) | Condition::Ticked(node) => into.push(*node),
-            Condition::Marked(_) => into.push(usize::MAX),
+            Condition::Answers(node, _) | Condition::Ticked(node) => {
+                into.nodes.insert(*node);
+            }
+            Condition::Marked(_) => into.net = true,
             Condition::Not(it) => it.watched(into),
             Condition::And(a, b) | Condition::Or(a, b) => {
                 a.watched(into);

@@ -26,7 +26,7 @@ pub(super) struct Pack {
     fields: Vec<(u32, Field)>,
     /// The node that asks, and whether a wake-up is pending.
     at: Field,
-    /// How many nodes may ask, with the supervisor.
+    /// Number of those that may ask: nodes, and the supervisor.
     asks: usize,
     wake: Field,
     /// Number of the blackboard, where nodes write to it.

@@ -6,7 +6,7 @@ use super::graph::What;
 use super::runs::Run;
 use super::{Assumptions, Limits, Space};
 use crate::diagnostic::nearest;
-use crate::machine::Status;
+use crate::machine::{Status, Watched};
 use crate::tree::{Answer, NET, Tree};
 
 /// Quantifier of a condition.
@@ -251,7 +251,7 @@ pub fn check_property(
     assumptions: Assumptions,
     limits: Limits,
 ) -> Verdict {
-    let mut watched = Vec::new();
+    let mut watched = Watched::default();
     match property {
         Property::Always(p) | Property::Sometime(p) | Property::Finally(p) => {
             p.watched(&mut watched);
@@ -261,8 +261,6 @@ pub fn check_property(
             q.watched(&mut watched);
         }
     }
-    watched.sort_unstable();
-    watched.dedup();
     let mut space = Space::watching(tree, skips, assumptions, &watched, limits);
     let states = space.size().0;
     let complete = space.is_complete();

@@ -1,7 +1,7 @@
 //! The supervisor beside a tree: its own moves before a tick, and leaves that act on it.
 
 use super::{Event, How, Machine, Move, Question, Reply, Status, Stop, words};
-use crate::supervisor::{Acts, Bond, Bonds, Part, Sight, Taken, When, after};
+use crate::supervisor::{Acts, Bond, Bonds, Part, Sight, Taken, When, waited_for, waits};
 use crate::tree::{Answer, Tree};
 
 /// Cells of a supervisor.
@@ -12,7 +12,7 @@ pub(super) struct Beside {
     latches: Vec<Option<usize>>,
     /// The cell that notes a transition upon which the tree is halted, where one is waited for.
     cancelled: Option<usize>,
-    /// Whether a property asks for its places.
+    /// A property asks for its places.
     watched: bool,
 }
 
@@ -21,7 +21,7 @@ pub(super) struct Beside {
 pub struct Vain {
     /// The leaf.
     pub node: usize,
-    /// Which of its events.
+    /// The part of its life.
     pub part: Part,
     /// State of the supervisor.
     pub state: u32,
@@ -42,14 +42,14 @@ impl<'t> Machine<'t> {
         self.layout.widths.extend([super::cells::bits(states).max(1), 1]);
         let latches = bonds.of.iter().map(|it| {
             let Some(Bond::Acts(acts)) = it else { return None };
-            acts.after().iter().any(|it| !it.is_empty()).then(|| {
+            acts.ends().into_iter().any(waits).then(|| {
                 self.cells.push(0);
                 self.layout.widths.push(2);
                 self.cells.len() - 1
             })
         });
         let latches = latches.collect();
-        let cancelled = (!after(&bonds.cancels).is_empty()).then(|| {
+        let cancelled = waits(&bonds.cancels).then(|| {
             self.cells.push(0);
             self.layout.widths.push(1);
             self.cells.len() - 1
@@ -158,24 +158,21 @@ impl<'t> Machine<'t> {
         let (to, taken, fired) = bonds.net.offer(self.cells[beside.cell], event);
         self.cells[beside.cell] = to;
         if let Some(cell) = beside.cancelled {
-            let waited = after(&bonds.cancels);
-            self.cells[cell] |= fired.iter().any(|it| waited.contains(it)) as u32;
+            self.cells[cell] |= waited_for(&bonds.cancels, fired) as u32;
         }
         for (node, cell) in beside.latches.iter().enumerate() {
             let (Some(cell), Some(Bond::Acts(acts))) = (*cell, &bonds.of[node]) else { continue };
             if starts != Some(node) && self.cells[node] != Status::Running as u32 {
                 continue;
             }
-            for (bit, after) in acts.after().iter().enumerate() {
-                if fired.iter().any(|it| after.contains(it)) {
-                    self.cells[cell] |= 1 << bit;
-                }
+            for (bit, when) in acts.ends().into_iter().enumerate() {
+                self.cells[cell] |= (waited_for(when, fired) as u32) << bit;
             }
         }
         taken
     }
 
-    /// Offers what a leaf starts or halts; returns whether the leaf goes on.
+    /// Offers the event by which a leaf starts or is halted; returns whether the leaf goes on.
     fn offer(&mut self, node: usize, acts: &Acts, part: Part, event: usize) -> bool {
         let state = self.stands();
         let has_ended = self.ended(node, acts).is_some();
@@ -210,13 +207,16 @@ impl<'t> Machine<'t> {
     }
 
     fn sees(&self, node: usize, when: &When, bit: u32) -> bool {
+        let latch = self.beside.as_ref().and_then(|it| it.latches[node]);
+        self.is_seen(when, latch.is_some_and(|it| self.cells[it] >> bit & 1 == 1))
+    }
+
+    /// Returns whether a sight is so; `fired` says that a transition that is waited for has fired.
+    fn is_seen(&self, when: &[Sight], fired: bool) -> bool {
         when.iter().any(|it| match it {
             Sight::At(place) => self.is_marked(*place),
             Sight::NotAt(place) => !self.is_marked(*place),
-            Sight::After(_) => {
-                let cell = self.beside.as_ref().and_then(|it| it.latches[node]);
-                cell.is_some_and(|it| self.cells[it] >> bit & 1 == 1)
-            }
+            Sight::After(_) => fired,
         })
     }
 
@@ -224,11 +224,7 @@ impl<'t> Machine<'t> {
     pub(super) fn cancelled(&mut self) -> Option<Stop> {
         let bonds = self.bonds()?;
         let noted = self.beside.as_ref().and_then(|it| it.cancelled);
-        let is_so = bonds.cancels.iter().any(|it| match it {
-            Sight::At(place) => self.is_marked(*place),
-            Sight::NotAt(place) => !self.is_marked(*place),
-            Sight::After(_) => noted.is_some_and(|it| self.cells[it] == 1),
-        });
+        let is_so = self.is_seen(&bonds.cancels, noted.is_some_and(|it| self.cells[it] == 1));
         is_so.then(|| match self.halt_tree() {
             Ok(()) => Stop::Halted,
             Err(thrown) => Stop::Thrown(thrown),

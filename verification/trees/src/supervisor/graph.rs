@@ -17,16 +17,16 @@ const MOST_EDGES: usize = 20_000_000;
 /// Name of the move in which nets of a system read their mailboxes.
 const ROUND: &str = "round";
 
-/// Why a supervisor cannot be set beside a tree.
+/// Reasons why a supervisor cannot be set beside a tree.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unfit {
-    /// It cannot be played.
+    /// No player takes it.
     NotPlayed(NotPlayed),
-    /// It waits for no event.
+    /// Nothing in it waits for an event.
     Plain,
-    /// Its transitions without event fire without an end.
+    /// Transitions without event fire without an end.
     Restless,
-    /// It has too many states.
+    /// More than [`MOST_STATES`] states, or too many edges.
     Large,
 }
 
