@@ -146,8 +146,8 @@ pub enum Bond {
 pub struct Acts {
     /// The event by which it starts.
     pub starts: Option<usize>,
-    /// Takes an event that is ignored for FAILURE, also where it is ignored on purpose, and not for a
-    /// fault.
+    /// Takes an event that is ignored for FAILURE, also where it is ignored on purpose, and not
+    /// for a fault.
     pub tries: bool,
     /// SUCCESS; at once where neither this nor `fails` is given.
     pub succeeds: Option<When>,

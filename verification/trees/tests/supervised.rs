@@ -208,8 +208,8 @@ fn walks(count: usize, period: Option<u32>) -> usize {
     ticks
 }
 
-/// Lines of actions and services, of conditions, of leaves that end at once, and of the supervisor's
-/// own doing in one tree of three.
+/// Lines of actions and services, of conditions, of leaves that end at once, and of the
+/// supervisor's own doing in one tree of three.
 type Lines = [&'static [&'static str]; 4];
 
 const DRIVES: Lines = [
