@@ -9,14 +9,17 @@ use super::machine::{machine, needs_state};
 use crate::net::data::{EventId, OutputId};
 use crate::system::data::{Delivery, Of, System};
 
-/// The bits of a hash of needs and deltas: one equal to an earlier one is found in one step, unless
-/// another of the same hash came between them.
-const HASH_BITS: u32 = 9;
+/// The bits of a hash of needs and deltas.
+const HASH_BITS: u32 = 12;
 
-/// The position of the latest words of each hash, or [`NONE`].
-type Latest = [u16; 1 << HASH_BITS];
+/// So many slots from that of its hash on are looked through for equal words: the time of packing
+/// is linear.
+const PROBES: usize = 16;
 
-const NOWHERE: Latest = [NONE; 1 << HASH_BITS];
+/// The positions of words by their hash, each in the first free slot from there on, or [`NONE`].
+type Slots = [u16; 1 << HASH_BITS];
+
+const FREE: Slots = [NONE; 1 << HASH_BITS];
 
 /// Packs a system. The lists are as long as [`size`](super::size::size) says, `W` is
 /// [`Size::words`](super::code::Size::words) or more, and the system and its nets have no defect.
@@ -212,7 +215,7 @@ const fn transition<'s>(
 
 /// The words of the entries.
 const fn arcs<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>, words: &mut Words<W>) {
-    let (mut needs, mut deltas): (Latest, Latest) = (NOWHERE, NOWHERE);
+    let (mut needs, mut deltas): (Slots, Slots) = (FREE, FREE);
     let mut at = 0;
     while at < lists.entries.len() {
         let number = lists.entries[at].transition;
@@ -228,14 +231,13 @@ const fn arcs<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>, wor
     }
 }
 
-/// The position of these words in a list of so many, to which they are added unless the latest of
-/// their hash are equal. Single words are always added: they are as short as a position, and found
-/// without one.
+/// The position of these words in a list of so many, to which they are added unless equal ones are
+/// found. Single words are always added: they are as short as a position, and found without one.
 const fn once<const W: usize>(
     list: &mut [[u64; W]],
     count: &mut u16,
     words: &[u64; W],
-    latest: &mut Latest,
+    slots: &mut Slots,
 ) -> u16 {
     let end = *count;
     if W > 1 {
@@ -245,8 +247,14 @@ const fn once<const W: usize>(
             hash ^= hash >> 32;
             word += 1;
         }
-        let slot = &mut latest[(hash as u32 >> (32 - HASH_BITS)) as usize];
-        if *slot != NONE {
+        let first = hash as usize % slots.len();
+        let mut probe = 0;
+        while probe < PROBES {
+            let slot = &mut slots[(first + probe) % slots.len()];
+            if *slot == NONE {
+                *slot = end;
+                break;
+            }
             let before = &list[*slot as usize];
             word = 0;
             while word < W && before[word] == words[word] {
@@ -255,8 +263,8 @@ const fn once<const W: usize>(
             if word == W {
                 return *slot;
             }
+            probe += 1;
         }
-        *slot = end;
     }
     list[end as usize] = *words;
     *count += 1;
