@@ -17,6 +17,7 @@ use crate::input;
 use crate::kind::{self, Kind};
 use crate::output::Screen;
 use beside::Bindings;
+use cotama_trees::certificate::Beside;
 use cotama_trees::diagnostic::{Diagnostic, Refusal, Severity};
 use cotama_trees::explore::Limits;
 use cotama_trees::kinds::{LeafKind, read_leaves};
@@ -68,6 +69,8 @@ struct Source {
     loaded: Loaded,
     options: Options,
     files: BTreeMap<String, Vec<u8>>,
+    /// The supervisor beside it, as texts.
+    beside: Option<Beside>,
 }
 
 /// Reads a tree.
@@ -122,7 +125,8 @@ fn source(path: &str, args: &TreeArgs, period: Option<u32>) -> Result<Source, Fa
     if let Some(it) = &bindings {
         it.bind(&mut loaded.tree, period)?;
     }
-    Ok(Source { loaded, options, files })
+    let beside = bindings.map(|it| it.texts()).transpose()?;
+    Ok(Source { loaded, options, files, beside })
 }
 
 /// Returns the XML files of a folder and of those in it, in the order of their names.

@@ -242,14 +242,22 @@ fn a_supervisor_beside_a_tree_refuses_a_start_and_is_seen_in_each_tick() {
     assert_eq!(played["ticks"][1]["events"][0], "(path_ready)");
     let space = with(&["statespace", "tree.xml", "--json"]).json(0);
     assert_eq!(space["complete"], true);
-    for (more, said) in [
-        (["--certificate", "c.json"], "no certificate holds a supervisor"),
-        (["--property", "AG !net.Idel"], "no place Idel; did you mean Idle?"),
-    ] {
-        let ended = with(&[&["check", "tree.xml"], more.as_slice()].concat());
-        assert_eq!(ended.code, Some(2), "{}", ended.stderr);
-        assert!(ended.stderr.contains(said), "{}", ended.stderr);
-    }
+    let more = ["--property", "AG !net.Idel"];
+    let ended = with(&[&["check", "tree.xml"], more.as_slice()].concat());
+    assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+    assert!(ended.stderr.contains("no place Idel; did you mean Idle?"), "{}", ended.stderr);
+    let finally = ["--property", "AG (net.Planning -> AF (done | ToB.ticked))"];
+    let line = ["check", "tree.xml", "--certificate", "c.json"];
+    with(&[&line[..], &finally].concat());
+    let shown = folder.cotama(&["verify", "c.json", "--json"]).json(0);
+    let shown = shown["question"].as_str().unwrap().to_owned();
+    assert!(shown.contains("never-ends") && !shown.contains("refused"), "{shown}");
+    let forged = folder.read("c.json").replace("\"stuck\"", "\"refused\"");
+    folder.write("forged.json", &forged);
+    assert_eq!(folder.cotama(&["verify", "forged.json"]).code, Some(1));
+    let other = folder.read("c.json").replace("starts start_drive", "starts gs_abort");
+    folder.write("forged.json", &other);
+    assert_eq!(folder.cotama(&["verify", "forged.json"]).code, Some(1));
     folder.write("drive.txt", "Drive starts strat_drive succeeds at End\n");
     let ended = with(&["check", "tree.xml"]);
     assert!(ended.stderr.contains("no event strat_drive; did you mean start_drive?"));

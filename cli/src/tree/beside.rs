@@ -4,10 +4,15 @@ use crate::args::TreeArgs;
 use crate::exit::Failure;
 use crate::file_errors::FileErrors;
 use crate::input;
+use crate::kind::{self, Kind};
 use crate::model;
+use cotama_core::system::{Component, System};
+use cotama_trees::certificate::Beside;
 use cotama_trees::kinds::{Leaf, nav2};
 use cotama_trees::supervisor::{Bindings as Written, Supervisor, Unfit, Wrong};
 use cotama_trees::tree::Tree;
+use cotama_verification::formats::json;
+use cotama_verification::play::Numbered;
 
 /// Most bytes of a file that binds leaves.
 const MOST_BYTES: u64 = 1 << 20;
@@ -27,6 +32,17 @@ impl Bindings {
         let text = input::text(path, "a file that binds leaves", MOST_BYTES)?;
         let written = Written::read(&text).map_err(|it| wrong(path, &text, it))?;
         Ok(Some(Self { supervisor: supervisor.clone(), path: path.clone(), text, written }))
+    }
+
+    /// Returns the model and the bonds as texts, for a certificate.
+    pub(super) fn texts(&self) -> Result<Beside, Failure> {
+        let model = model::with_system(&self.supervisor, |system, _| {
+            match (Numbered::of(system).is_system(), system.components) {
+                (false, [alone]) => json::write(alone.net),
+                _ => json::write_system(system),
+            }
+        })?;
+        Ok(Beside { model, bindings: self.text.clone() })
     }
 
     /// Returns the leaves that nothing else describes.
@@ -54,6 +70,21 @@ impl Bindings {
         })?;
         self.written.bind(tree, net).map_err(|it| wrong(&self.path, &self.text, it))
     }
+}
+
+/// Explores the model in a certificate.
+pub(super) fn explored(
+    text: &str,
+    period: Option<u32>,
+    never: &[&str],
+) -> Result<Supervisor, String> {
+    let of = |system: &System<'_>| Supervisor::of(system, period, never);
+    let found = if kind::is_of(text, Kind::JsonSystem) {
+        json::read_system(text).map(|it| it.with(of))
+    } else {
+        json::read(text).map(|it| of(&System::alone(&[Component::alone(&it.view().net())])))
+    };
+    found.map_err(|it| it.message)?.map_err(|it| it.to_string())
 }
 
 fn wrong(path: &str, text: &str, it: Wrong) -> Failure {

@@ -1,6 +1,7 @@
 //! Certificates of answers about behaviour trees, written and verified.
 
 use super::Source;
+use super::beside::explored;
 use crate::answers::check::VerifyAnswer;
 use crate::answers::check::tree::TreeAnswer;
 use crate::args::CheckArgs;
@@ -37,26 +38,27 @@ pub(super) fn write(
     it.assume.clone_from(&args.wishes.assume);
     let tree = &source.loaded.tree;
     let exclusive = super::check::exclusive(args, tree)?;
+    it.given.clone_from(&args.wishes.given);
+    it.beside.clone_from(&source.beside);
     it.exclusive = exclusive.into_iter().map(|it| tree.shown(it)).collect();
     let mut others = Vec::new();
     for row in answer.results.iter().filter(|it| it.verdict == "true") {
         let own = row.name == "property";
         let name = if own { &row.property } else { &row.name };
-        let walks = own && ["AG", "EF"].iter().any(|it| name.trim_start().starts_with(it));
-        if SHOWN.contains(&name.as_str()) || walks {
+        if SHOWN.contains(&name.as_str()) || own {
             it.shows.push(name.clone());
         } else {
             others.push(name.clone());
         }
     }
-    let mut refused = it.verify();
+    let mut refused = it.verify(&mut explored);
     // What is shown of a node that nothing enters is less than what holds.
     while let Err(("shows", why)) = &refused {
         let Some(at) = it.shows.iter().position(|name| why.starts_with(name.as_str())) else {
             break;
         };
         others.push(it.shows.remove(at));
-        refused = it.verify();
+        refused = it.verify(&mut explored);
     }
     if let Err((at, why)) = refused {
         screen.note(&format!("no certificate: {at}: {why}"));
@@ -72,7 +74,7 @@ pub(super) fn write(
 
 /// Verifies a certificate about a tree.
 pub(crate) fn verify(text: &str, nothing: VerifyAnswer) -> VerifyAnswer {
-    match certificate::verify(text) {
+    match certificate::verify(text, &mut explored) {
         Ok(it) => VerifyAnswer {
             verified: true,
             tree: Some(format!("{} ({} nodes)", it.tree, it.nodes)),

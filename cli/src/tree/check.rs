@@ -16,7 +16,7 @@ use cotama_trees::kinds::LeafKind;
 use cotama_trees::page::{self, Section};
 use cotama_trees::reader::Loaded;
 use cotama_trees::replay::frames;
-use cotama_trees::tree::{Gate, Kind, Tree};
+use cotama_trees::tree::{Gate, Kind, Queue, Tree};
 use std::time::Instant;
 
 const ENGINE: &str = "explicit";
@@ -24,10 +24,6 @@ const ENGINE: &str = "explicit";
 /// Answers all questions about a tree.
 pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
     refuse_others(args)?;
-    if args.certificate.is_some() && args.tree.with.is_some() {
-        let failure = Failure::new("--certificate: no certificate holds a supervisor");
-        return Err(failure.help("leave --certificate out, or --with and --bind"));
-    }
     if let Some(folder) = &args.wishes.html {
         output::report(folder)?;
     }
@@ -193,7 +189,9 @@ fn free(tree: &Tree, timed: bool) -> String {
     });
     let rate = |it: &Kind| matches!(it, Kind::Gate(Gate::Rate { .. }));
     let gates = count(&|it| {
-        matches!(it, Kind::Gate(_) | Kind::PathLongerOnApproach) && !(timed && rate(it))
+        let is_gate =
+            matches!(it, Kind::Gate(_) | Kind::PathLongerOnApproach | Kind::PauseResumeController);
+        is_gate && !(timed && rate(it))
     });
     let timers = count(&|it| {
         matches!(it, Kind::Delay { .. } | Kind::Timeout { .. } | Kind::Sleep { .. }) && !timed
@@ -204,6 +202,9 @@ fn free(tree: &Tree, timed: bool) -> String {
     }
     all.extend((gates > 0).then(|| format!("gates: {gates}")));
     all.extend((timers > 0).then(|| format!("timers: {timers}")));
+    let (queues, menus) = (count(&is_queue), count(&is_menu));
+    all.extend((queues > 0).then(|| format!("queues: {queues}")));
+    all.extend((menus > 0).then(|| format!("choices: {menus}")));
     format!("free: {}; what leaves write is not followed", all.join(", "))
 }
 
@@ -219,7 +220,29 @@ fn beside(tree: &Tree) -> Option<String> {
     })
 }
 
-const FAIR: &str = "fair: actions that run end or are halted, gates open again and again";
+fn is_queue(it: &Kind) -> bool {
+    matches!(it, Kind::Loop { queue: Queue::Entry(..), .. })
+}
+
+fn is_menu(it: &Kind) -> bool {
+    matches!(it, Kind::ManualSelector { .. })
+}
+
+/// Returns what is assumed of runs without end.
+fn fair(tree: &Tree) -> String {
+    let has = |is: &dyn Fn(&Kind) -> bool| tree.nodes.iter().any(|it| is(&it.kind));
+    let mut all = "fair: actions that run end or are halted, gates open again and again".to_owned();
+    if has(&is_queue) {
+        all += ", queues are empty at last";
+    }
+    if has(&is_menu) {
+        all += ", somebody chooses at last";
+    }
+    if has(&|it| *it == Kind::PauseResumeController) {
+        all += ", pauses do not come for ever";
+    }
+    all
+}
 
 fn ticks(tree: &Tree, run: &Run) -> Vec<TreeTickRow> {
     let all = frames(tree, run).unwrap_or_default().into_iter().enumerate();
@@ -296,7 +319,7 @@ fn answer(model: &str, loaded: &Loaded, report: &Report, seconds: f64) -> TreeAn
         model: model.to_owned(),
         tree: tree.name.clone(),
         nodes: tree.nodes.len(),
-        notes: [free(tree, false), FAIR.to_owned()].into_iter().chain(beside(tree)).collect(),
+        notes: [free(tree, false), fair(tree)].into_iter().chain(beside(tree)).collect(),
         warnings: warnings.collect(),
         unused_assumptions: report.unused.clone(),
         complete: report.complete,

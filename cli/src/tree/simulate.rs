@@ -131,7 +131,8 @@ pub(crate) fn simulate(args: &SimulateArgs, screen: &Screen) -> Result<Exit, Fai
                 let message =
                     format!("`{said}` is no answer to {}", asked(&game.machine, &question));
                 return Err(Failure::new(message).help(
-                    "S success, F failure, R running, K skipped; T open, N closed; a move, or -",
+                    "S success, F failure, R running, K skipped; T open, N closed; the number of a \
+                     child; a move, or -",
                 ));
             }
         }

@@ -29,11 +29,15 @@ DECORATORS = [
     ("Repeat", ' num_cycles="2"'), ("RetryUntilSuccessful", ' num_attempts="3"'), ("RunOnce", ""),
     ("Precondition", ' if="x == 1" else="SKIPPED"'),
     ("Precondition", ' if="x &lt; 3" else="FAILURE"'),
+    ("LoopDouble", ' value="{v}"'), ("LoopDouble", ' value="{x}" if_empty="SKIPPED"'),
 ]
 GUARDS = [
     ' _skipIf="x == 1"', ' _while="x != 2"', ' _failureIf="x == 3"', ' _successIf="x == 4"',
     ' _onSuccess="x = 1"', ' _onFailure="x += 1"', ' _onHalted="x := 2"', ' _post="x += 1"',
 ]
+# A queue on the blackboard. Up to 4.8 a text that is written there again is a new queue, which it is
+# not in 4.10, so each is written once.
+TEXT = "'2;4;'"
 LETTER = {"SUCCESS": "S", "FAILURE": "F", "RUNNING": "R", "SKIPPED": "K", "IDLE": "I"}
 
 
@@ -43,6 +47,7 @@ class Maker:
     def __init__(self, draw):
         self.draw = draw
         self.leaves = []
+        self.queues = 0
 
     def node(self, level):
         guard = self.draw.choice(GUARDS) if self.draw.random() < 1 / 5 else ""
@@ -54,6 +59,9 @@ class Maker:
             return f"<{self.leaves[-1]}{guard}/>"
         if self.draw.random() < 1 / 3:
             tag, ports = self.draw.choice(DECORATORS)
+            if tag == "LoopDouble":
+                self.queues += 1
+                ports += f' queue="{{q{self.queues}}}"'
             return f"<{tag}{ports}{guard}>{self.node(level - 1)}</{tag}>"
         tag = self.draw.choice(CONTROLS)
         pair = tag in ("IfThenElse", "WhileDoElse")
@@ -63,7 +71,10 @@ class Maker:
         return f"<{tag}{ports}{guard}>{inner}</{tag}>"
 
     def tree(self):
-        inner = f'<Script code="x := 0"/>{self.node(3)}'
+        node = self.node(3)
+        written = "; ".join(f"q{it} := {TEXT}" for it in range(1, self.queues + 1))
+        queues = f'<RunOnce><Script code="{written}"/></RunOnce>' if written else ""
+        inner = f'<Script code="x := 0"/>{queues}{node}'
         return (
             '<root BTCPP_format="4"><BehaviorTree ID="Main"><Sequence>'
             f"{inner}</Sequence></BehaviorTree></root>\n"
@@ -111,9 +122,17 @@ def built(draw):
 
 
 def board(tree):
-    """The blackboard as a trace has it: one number."""
+    """The blackboard as a trace has it: numbers, and queues as the text that was written."""
     entries = tree.root_blackboard()
-    cells = [f"{key}={entries.get_double(key):.15g}" for key in sorted(entries.get_keys())]
+
+    def value(key):
+        try:
+            return f"{entries.get_double(key):.15g}"
+        except RuntimeError as why:
+            unwritten = "hasn't been initialized" in str(why)
+            return "?" if unwritten else TEXT if key[0] == "q" else str(why)
+
+    cells = [f"{key}={value(key)}" for key in sorted(entries.get_keys())]
     return ";".join(cells) or "-"
 
 

@@ -2,13 +2,16 @@
 //!
 //! A certificate holds the files of a tree, how they were read, what was assumed, and which answers
 //! are good. Whoever doubts them needs neither the exploration nor its states: [`verify`] reads the
-//! tree again and walks it plainly (see [`crate::plain`]). No evidence makes this shorter than the
-//! search was, since whatever a tree does, its executor must be asked.
+//! tree again and walks it plainly (see [`crate::plain`]). A supervisor beside the tree is held as
+//! the text of its model, with that of the bindings, and explored anew. No evidence makes this
+//! shorter than the search was, since whatever a tree does, its executor must be asked.
 
 use crate::explore::{Assumptions, End, Property, parse_assumption, parse_property};
+use crate::findings::Wishes;
 use crate::kinds::{Leaf, LeafKind};
 use crate::plain::{Plain, walk};
 use crate::reader::{Options, read};
+use crate::supervisor::{Bindings, Supervisor};
 use crate::tree::{Answer, Kind, Tree};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -20,11 +23,13 @@ pub const SCHEMA: &str = "cotama-tree-certificate/1";
 pub const MOST_STATES: usize = 100_000;
 
 /// Questions that a plain walk can answer.
-pub const SHOWN: [&str; 11] = [
+pub const SHOWN: [&str; 15] = [
     "can-succeed",
     "exception",
     "halt-exception",
     "stuck",
+    "never-ends",
+    "restarted-forever",
     "spins",
     "success-lost",
     "recovery",
@@ -32,6 +37,8 @@ pub const SHOWN: [&str; 11] = [
     "never-succeeds",
     "exclusive",
     "running-together",
+    "read-before-written",
+    "refused",
 ];
 
 /// Answers about a tree, with all that is needed to ask again.
@@ -52,9 +59,29 @@ pub struct Certificate {
     pub assume: Vec<String>,
     /// Actions that exclude each other.
     pub exclusive: Vec<String>,
+    /// Entries that are written before the first tick.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub given: Vec<String>,
+    /// The supervisor beside the tree.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub beside: Option<Beside>,
     /// Questions and own properties that are answered well.
     pub shows: Vec<String>,
 }
+
+/// A supervisor beside a tree, as texts.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Beside {
+    /// The model.
+    pub model: String,
+    /// The file that binds leaves.
+    pub bindings: String,
+}
+
+/// Explores the model of a supervisor: its text, the time between two ticks in ms, events that do
+/// not happen.
+pub type Explore<'e> = &'e mut dyn FnMut(&str, Option<u32>, &[&str]) -> Result<Supervisor, String>;
 
 /// Options of the reader, in words.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -127,6 +154,8 @@ impl Certificate {
             period: None,
             assume: Vec::new(),
             exclusive: Vec::new(),
+            given: Vec::new(),
+            beside: None,
             shows: Vec::new(),
         }
     }
@@ -142,7 +171,7 @@ impl Certificate {
     /// # Errors
     ///
     /// Returns which answer is not so, or why there is none.
-    pub fn verify(&self) -> Result<Verified, Refused> {
+    pub fn verify(&self, explore: Explore) -> Result<Verified, Refused> {
         if self.schema != SCHEMA {
             return Err(("schema", format!("{} is not {SCHEMA}", self.schema)));
         }
@@ -154,7 +183,10 @@ impl Certificate {
             text.ok_or_else(|| "it is not in the certificate".to_owned())
         };
         let loaded = read(&self.model, &mut from, &options);
-        let tree = loaded.map_err(|it| ("files", it.to_string()))?.tree;
+        let mut tree = loaded.map_err(|it| ("files", it.to_string()))?.tree;
+        if let Some(beside) = &self.beside {
+            self.bind(&mut tree, beside, explore).map_err(|it| ("beside", it))?;
+        }
         let assumptions = self.assume.iter().map(|it| parse_assumption(&tree, it));
         let assumptions =
             assumptions.collect::<Result<Vec<_>, _>>().map_err(|it| ("assume", it))?;
@@ -164,20 +196,19 @@ impl Certificate {
             .iter()
             .map(|it| tree.find(it).ok_or_else(|| ("exclusive", format!("no node {it}"))));
         let exclusive = exclusive.collect::<Result<Vec<_>, _>>()?;
+        let (skips, given) = (self.skips, self.given.clone());
+        let wishes = Wishes { exclusive, given, skips, assumptions };
         let walked = |property: Option<&Property>| {
-            walk(&tree, self.skips, assumptions.clone(), property, MOST_STATES)
+            walk(&tree, &wishes, property, MOST_STATES)
                 .ok_or_else(|| ("files", format!("more than {MOST_STATES} states")))
         };
         let plain = walked(None)?;
         for text in &self.shows {
             let holds = if SHOWN.contains(&text.as_str()) {
-                is_well(&tree, &plain, &exclusive, text)
+                is_well(&tree, &plain, &wishes.exclusive, text)
             } else {
-                match parse_property(&tree, text).map_err(|it| ("shows", it.1))? {
-                    it @ Property::Always(_) => !walked(Some(&it))?.held[0],
-                    it @ Property::Sometime(_) => walked(Some(&it))?.held[1],
-                    _ => return Err(("shows", format!("{text}: only AG p and EF p are shown"))),
-                }
+                let property = parse_property(&tree, text).map_err(|it| ("shows", it.1))?;
+                walked(Some(&property))?.holds == Some(true)
             };
             if !holds {
                 return Err(("shows", format!("{text} is not shown")));
@@ -186,6 +217,13 @@ impl Certificate {
         let (tree, nodes) = (tree.name.clone(), tree.nodes.len());
         Ok(Verified { tree, nodes, states: plain.states, shows: self.shows.clone() })
     }
+
+    /// Sets the supervisor beside the tree again.
+    fn bind(&self, tree: &mut Tree, beside: &Beside, explore: Explore) -> Result<(), String> {
+        let bindings = Bindings::read(&beside.bindings).map_err(|it| it.message)?;
+        let net = explore(&beside.model, self.period, &bindings.never())?;
+        bindings.bind(tree, net).map_err(|it| it.message)
+    }
 }
 
 /// Reads a certificate and verifies it.
@@ -193,9 +231,9 @@ impl Certificate {
 /// # Errors
 ///
 /// Returns the place and the cause; `certificate` where it is none.
-pub fn verify(text: &str) -> Result<Verified, Refused> {
+pub fn verify(text: &str, explore: Explore) -> Result<Verified, Refused> {
     let read: Result<Certificate, _> = serde_json::from_str(text);
-    read.map_err(|it| ("certificate", it.to_string()))?.verify()
+    read.map_err(|it| ("certificate", it.to_string()))?.verify(explore)
 }
 
 /// Returns whether a question is answered well.
@@ -209,6 +247,10 @@ fn is_well(tree: &Tree, plain: &Plain, exclusive: &[usize], question: &str) -> b
         "exception" => !plain.ends.keys().any(|it| matches!(it, End::Thrown(_))),
         "halt-exception" => !plain.halting_throws,
         "stuck" => plain.stuck == 0 || plain.ends.is_empty(),
+        "never-ends" => !plain.forever,
+        "restarted-forever" => plain.restarted.is_empty(),
+        "read-before-written" => plain.early.is_empty(),
+        "refused" => tree.bonds.is_some() && plain.refused.is_empty(),
         "spins" => !plain.spins,
         "success-lost" => plain.lost.is_empty(),
         "recovery" => nodes.all(|(_, it)| match (&it.kind, it.children.as_slice()) {
@@ -241,14 +283,30 @@ mod tests {
 
     #[test]
     fn a_certificate_of_what_does_not_hold_is_refused() {
-        let good = certificate(&["exception", "spins", "AG !(A1.running & C1.failure)"]);
-        let verified = verify(&good.text()).unwrap();
+        let mut none = |_: &str, _: Option<u32>, _: &[&str]| Err("no supervisor".to_owned());
+        let ends = ["never-ends", "restarted-forever", "AF done", "AG (A1.running -> AF done)"];
+        let good = ["exception", "spins", "read-before-written", "AG !(A1.running & C1.failure)"];
+        let good = certificate(&[&good[..], &ends].concat());
+        let verified = verify(&good.text(), &mut none).unwrap();
         assert_eq!((verified.nodes, verified.states), (3, 2));
-        for wrong in ["AG !A1.running", "EF (A1.success & C1.failure)", "AF done", "luck"] {
-            assert!(certificate(&["exception", wrong]).verify().is_err(), "{wrong}");
+        let wrong = ["AG !A1.running", "EF (A1.success & C1.failure)", "AF A1.ticked", "luck"];
+        for wrong in wrong.into_iter().chain(["refused", "AG (A1.running -> AF A1.success)"]) {
+            assert!(certificate(&["exception", wrong]).verify(&mut none).is_err(), "{wrong}");
+        }
+        let forever = good
+            .text()
+            .replace("<A1/>", "<KeepRunningUntilFailure><A1/></KeepRunningUntilFailure>");
+        for name in ends {
+            let shows = vec![name.to_owned()];
+            let it: Certificate = serde_json::from_str(&forever).unwrap();
+            let refused = Certificate { shows, ..it }.verify(&mut none).is_err();
+            assert_eq!(refused, name != "restarted-forever", "{name}");
         }
         let other = good.text().replace("<A1/>", "<AlwaysSuccess/>");
-        assert_eq!(verify(&other).unwrap_err().0, "shows");
-        assert_eq!(verify("{}").unwrap_err().0, "certificate");
+        assert_eq!(verify(&other, &mut none).unwrap_err().0, "shows");
+        assert_eq!(verify("{}", &mut none).unwrap_err().0, "certificate");
+        let beside = Beside { model: "{}".to_owned(), bindings: "A1 starts go".to_owned() };
+        let it = Certificate { beside: Some(beside), ..good }.verify(&mut none);
+        assert_eq!(it.unwrap_err(), ("beside", "no supervisor".to_owned()));
     }
 }

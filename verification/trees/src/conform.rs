@@ -215,14 +215,9 @@ fn step(machine: &mut Machine, row: &Row) -> Result<(String, String), (String, S
         it if it.is_empty() => "-".to_owned(),
         it => it,
     };
-    if row.op == Op::Halt {
-        let halted = machine.halt_tree();
-        parts.push(shown(machine));
-        let status = if halted.is_ok() { "H" } else { "X" };
-        return Ok((joined(&parts), status.to_owned()));
-    }
     loop {
-        let mut stop = machine.tick();
+        let halts = row.op == Op::Halt;
+        let mut stop = if halts { machine.halt_tree() } else { machine.tick() };
         while let Stop::Asked(question) = stop {
             let reply = replies.pop_front();
             if let Some(reply) = reply.filter(|it| question.replies.contains(it)) {
@@ -240,13 +235,13 @@ fn step(machine: &mut Machine, row: &Row) -> Result<(String, String), (String, S
         let status = match stop {
             Stop::Answered(answer) => answer.letter().to_string(),
             Stop::Thrown(thrown) => match thrown.node {
-                Some(node) => format!("X@{}", tree.nodes[node].name),
-                None => "X".to_owned(),
+                Some(node) if !halts => format!("X@{}", tree.nodes[node].name),
+                _ => "X".to_owned(),
             },
             Stop::Asked(_) => String::new(),
             Stop::Halted => "H".to_owned(),
         };
-        if row.op == Op::Tick || status != "R" || !machine.take_wake() {
+        if row.op != Op::Once || status != "R" || !machine.take_wake() {
             return Ok((joined(&parts), status));
         }
         if parts.len() == SPIN {

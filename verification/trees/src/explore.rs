@@ -84,6 +84,8 @@ pub struct Space<'t> {
     /// Why exceptions were thrown, by end, the first time.
     pub(crate) causes: BTreeMap<End, String>,
     complete: bool,
+    /// Leaves may answer SKIPPED.
+    skips: bool,
     /// Ends by their codes, where nothing is watched.
     ends: Vec<Option<u32>>,
     /// Actions, and which pairs of them were seen, to run and to start.
@@ -136,11 +138,12 @@ impl<'t> Space<'t> {
             refused: BTreeMap::new(),
             causes: BTreeMap::new(),
             complete: true,
+            skips,
             ends: Vec::new(),
             met: vec![[false; 2]; actions.len() * actions.len()],
             actions,
         };
-        space.run(skips, limits);
+        space.run(limits);
         space
     }
 
@@ -210,7 +213,7 @@ impl<'t> Space<'t> {
         &mut self.machine
     }
 
-    fn run(&mut self, skips: bool, limits: Limits) {
+    fn run(&mut self, limits: Limits) {
         self.machine.at = None;
         self.pack.store(&mut self.machine, 0);
         self.add(0, (0, 0), 0);
@@ -236,7 +239,7 @@ impl<'t> Space<'t> {
                     self.complete = false;
                     return;
                 }
-                self.expand(point as usize, skips, &mut base, &mut waiting, &mut work);
+                self.expand(point as usize, &mut base, &mut waiting, &mut work);
             }
         }
     }
@@ -249,7 +252,6 @@ impl<'t> Space<'t> {
     fn expand(
         &mut self,
         point: usize,
-        skips: bool,
         base: &mut Vec<u32>,
         waiting: &mut VecDeque<u32>,
         work: &mut VecDeque<u32>,
@@ -269,7 +271,7 @@ impl<'t> Space<'t> {
         base.clone_from(&self.machine.cells);
         let (entries, wake) = (self.machine.entries.clone(), self.machine.wake);
         for &reply in question.replies {
-            if reply == Reply::Leaf(Answer::Skipped) && !skips {
+            if reply == Reply::Leaf(Answer::Skipped) && !self.skips {
                 continue;
             }
             if !self.assumptions.allows(question.node, reply, base) {

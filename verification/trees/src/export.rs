@@ -124,8 +124,12 @@ pub fn sign(kind: &Kind) -> &'static str {
         Kind::Fallback { .. } => "?",
         Kind::ReactiveFallback => "⟳?",
         Kind::Parallel { .. } | Kind::ParallelAll { .. } => "∥",
-        Kind::IfThenElse | Kind::WhileDoElse | Kind::Switch { .. } => "⋔",
-        Kind::TryCatch | Kind::RecoveryNode { .. } | Kind::RoundRobin { .. } => "↻",
+        Kind::IfThenElse
+        | Kind::WhileDoElse
+        | Kind::Switch { .. }
+        | Kind::ManualSelector { .. }
+        | Kind::PauseResumeController => "⋔",
+        Kind::TryCatch { .. } | Kind::RecoveryNode { .. } | Kind::RoundRobin { .. } => "↻",
         Kind::SubTree { .. } => "▣",
         Kind::Leaf(kind) if kind.runs() => "■",
         Kind::Leaf(_) => "●",

@@ -7,13 +7,16 @@
 
 mod beside;
 mod boards;
+mod catching;
 mod cells;
+mod choices;
 mod controls;
 mod decorators;
 mod halting;
 mod leaves;
 mod nav2;
 mod parallel;
+mod queues;
 mod timers;
 mod watched;
 mod words;
@@ -21,11 +24,14 @@ mod words;
 use crate::tree::{Answer, Kind, Tree};
 pub use beside::Vain;
 pub(crate) use boards::Store;
+pub(crate) use catching::catches;
+use catching::{Catching, From};
 pub(crate) use cells::Layout;
+pub(crate) use queues::{item, items};
 use std::fmt;
 use timers::Beat;
 pub(crate) use watched::Watched;
-pub use words::{Event, How, MOST_MOVES, Question, Reply, Status, Stop, Thrown};
+pub use words::{Event, How, MOST_CHOICES, MOST_MOVES, Question, Reply, Status, Stop, Thrown};
 
 /// The cause of an exception, before a node is named.
 pub(crate) struct Fault(pub(crate) String);
@@ -56,6 +62,7 @@ enum Cursor {
     Leave(usize, Answer),
     /// At the timers after this one: date, node.
     Timers(Option<(i64, usize)>),
+    Step(usize, Result<Move, Fault>),
 }
 
 /// A tree with everything that it remembers.
@@ -82,6 +89,8 @@ pub struct Machine<'t> {
     pub(crate) lost: Vec<(u32, u32)>,
     /// For each node, the cell that notes its answer of this tick, where this is watched.
     pub(crate) watched: Vec<Option<usize>>,
+    /// Cells of statuses that are kept where a run has ended.
+    pub(crate) kept: Vec<usize>,
     /// Time between two ticks, where they come at a period.
     beat: Option<Beat>,
     /// Cells of the supervisor.
@@ -90,6 +99,10 @@ pub struct Machine<'t> {
     pub(crate) refused: Vec<Vain>,
     /// Leaves that started in the supervisor, each with an action that ran, the latest.
     pub(crate) begun: Vec<(u32, u32)>,
+    /// Questions within halting, where a node asks there.
+    catching: Option<Catching>,
+    /// The node in whose tick an exception was thrown, within halting.
+    named: Option<usize>,
 }
 
 impl<'t> Machine<'t> {
@@ -111,10 +124,13 @@ impl<'t> Machine<'t> {
             said: vec![0; tree.nodes.len()],
             lost: Vec::new(),
             watched: vec![None; tree.nodes.len()],
+            kept: Vec::new(),
             beat: None,
             beside: None,
             refused: Vec::new(),
             begun: Vec::new(),
+            catching: None,
+            named: None,
         };
         for (node, it) in tree.nodes.iter().enumerate() {
             if matches!(it.kind, Kind::PathLongerOnApproach | Kind::SingleTrigger) {
@@ -123,6 +139,7 @@ impl<'t> Machine<'t> {
         }
         machine.fill();
         machine.beside();
+        machine.catching();
         machine
     }
 
@@ -195,20 +212,19 @@ impl<'t> Machine<'t> {
 
     /// Ticks the root once, up to the first question.
     pub fn tick(&mut self) -> Stop {
-        self.pass();
-        self.ask_net().unwrap_or_else(|| self.reply_rest())
+        self.begin(From::Tick, Vec::new())
     }
 
-    /// Gives the reply to the question at which the tick stopped.
-    ///
-    /// # Panics
-    ///
-    /// Panics if the tree does not ask, or does not allow this reply.
-    pub fn reply(&mut self, reply: Reply) -> Stop {
-        let question = self.question().expect("a tree that asks");
-        assert!(question.replies.contains(&reply), "a reply that is allowed");
-        let node = question.node;
-        self.at = None;
+    /// Goes on to the next question, whatever halting asks.
+    fn go(&mut self, from: From) -> Stop {
+        let (node, reply) = match from {
+            From::Tick => {
+                self.pass();
+                return self.ask_net().unwrap_or_else(|| self.reply_rest());
+            }
+            From::Halt => return self.halt_all(),
+            From::Reply(node, reply) => (node, reply),
+        };
         match reply {
             Reply::Net(at) => {
                 self.moved(at);
@@ -216,23 +232,36 @@ impl<'t> Machine<'t> {
                 return asked.unwrap_or_else(|| self.reply_rest());
             }
             Reply::Rest => return self.reply_rest(),
-            _ => self.events.push(Event::Asked(node as u32, question.how, reply)),
-        }
-        match (&self.tree.nodes[node].kind, reply) {
-            (Kind::Delay { .. } | Kind::Timeout { .. } | Kind::Sleep { .. }, _) => {
-                let place = (self.date(node), node);
-                if reply == Reply::Yes
-                    && let Err(fault) = self.fire(node)
-                {
-                    return Stop::Thrown(Thrown { node: None, why: fault.0 });
-                }
-                self.run(Cursor::Timers(Some(place)))
-            }
-            (_, Reply::Leaf(answer)) => self.run(Cursor::Leave(node, answer)),
             _ => {
-                let step = decorators::looked(self, node, reply == Reply::Yes);
-                self.step(node, &step)
+                let how = self.question_of(node).how;
+                self.events.push(Event::Asked(node as u32, how, reply));
             }
+        }
+        if let Kind::Delay { .. } | Kind::Timeout { .. } | Kind::Sleep { .. } =
+            self.tree.nodes[node].kind
+        {
+            let place = (self.date(node), node);
+            if reply == Reply::Yes
+                && let Err(fault) = self.fire(node)
+            {
+                return self.thrown(None, fault);
+            }
+            return self.run(Cursor::Timers(Some(place)), None);
+        }
+        let cursor = self.replied(node, reply);
+        self.run(cursor, None)
+    }
+
+    /// Returns the point from which a tick goes on after a reply.
+    fn replied(&mut self, node: usize, reply: Reply) -> Cursor {
+        let yes = reply == Reply::Yes;
+        match self.tree.nodes[node].kind {
+            Kind::ManualSelector { .. } => Cursor::Step(node, choices::chosen(self, node, reply)),
+            Kind::PauseResumeController => Cursor::Step(node, choices::served(self, node, yes)),
+            _ => match reply {
+                Reply::Leaf(answer) => Cursor::Leave(node, answer),
+                _ => Cursor::Step(node, decorators::looked(self, node, yes)),
+            },
         }
     }
 
@@ -242,31 +271,23 @@ impl<'t> Machine<'t> {
             return stop;
         }
         let ticks = self.take_gone_off();
-        self.run(if ticks { Cursor::Enter(0) } else { Cursor::Timers(None) })
+        self.run(if ticks { Cursor::Enter(0) } else { Cursor::Timers(None) }, None)
     }
 
-    /// Returns the question at which the tick stopped.
-    pub fn question(&self) -> Option<Question> {
-        let node = self.at?;
+    fn question_of(&self, node: usize) -> Question {
         if node == self.tree.nodes.len() {
-            return Some(self.question_of_net());
+            return self.question_of_net();
         }
-        Some(match self.tree.nodes[node].kind {
+        match self.tree.nodes[node].kind {
             Kind::Leaf(kind) => leaves::question(self, node, kind),
+            Kind::ManualSelector { .. } => choices::question(self, node),
             _ => Question { node, how: How::Looks, replies: &[Reply::Yes, Reply::No] },
-        })
-    }
-
-    fn step(&mut self, node: usize, step: &Move) -> Stop {
-        match *step {
-            Move::Child(at) => self.run(Cursor::Enter(self.child(node, at))),
-            Move::Answer(answer) => self.run(Cursor::Leave(node, answer)),
-            Move::Ask | Move::Idle => self.run(Cursor::Enter(node)),
         }
     }
 
-    fn run(&mut self, mut cursor: Cursor) -> Stop {
-        let thrown = |node, fault: Fault| Stop::Thrown(Thrown { node, why: fault.0 });
+    /// Walks through a tick, up to a question or the answer of the root; within halting, up to that
+    /// of the child that catches.
+    fn run(&mut self, mut cursor: Cursor, within: Option<usize>) -> Stop {
         loop {
             cursor = match cursor {
                 Cursor::Timers(after) => match self.timers(after) {
@@ -281,53 +302,44 @@ impl<'t> Machine<'t> {
                         self.take_gone_off();
                         Cursor::Enter(0)
                     }
-                    Err(fault) => return thrown(None, fault),
+                    Err(fault) => return self.thrown(None, fault),
                 },
-                Cursor::Enter(node) => {
-                    let parent = self.tree.nodes[node].parent;
-                    match self.guarded(node) {
-                        Err(fault) => return thrown(parent, fault),
-                        Ok(Some(answer)) => Cursor::Leave(node, answer),
-                        Ok(None) => match enter(self, node) {
-                            Err(fault) => return thrown(Some(node), fault),
-                            Ok(Move::Ask) => return self.ask(node),
-                            Ok(Move::Child(at)) => Cursor::Enter(self.child(node, at)),
-                            Ok(Move::Answer(answer)) => Cursor::Leave(node, answer),
-                            Ok(Move::Idle) => return thrown(parent, idle()),
-                        },
-                    }
-                }
+                Cursor::Enter(node) => match self.guarded(node) {
+                    Err(fault) => return self.thrown(self.tree.nodes[node].parent, fault),
+                    Ok(Some(answer)) => Cursor::Leave(node, answer),
+                    Ok(None) => Cursor::Step(node, enter(self, node)),
+                },
+                Cursor::Step(node, step) => match step {
+                    Err(fault) => return self.thrown(Some(node), fault),
+                    Ok(Move::Ask) => match self.asked(node, within.is_some()) {
+                        Ok(cursor) => cursor,
+                        Err(stop) => return stop,
+                    },
+                    Ok(Move::Child(at)) => Cursor::Enter(self.child(node, at)),
+                    Ok(Move::Answer(answer)) => Cursor::Leave(node, answer),
+                    Ok(Move::Idle) => return self.thrown(self.tree.nodes[node].parent, idle()),
+                },
                 Cursor::Leave(node, answer) => {
                     let parent = self.tree.nodes[node].parent;
                     if let Err(fault) = self.leave(node, answer) {
-                        return thrown(parent, fault);
+                        return self.thrown(parent, fault);
                     }
-                    let Some(parent) = parent else {
-                        if answer.is_done() {
-                            self.put_status(0, Status::Idle);
+                    let Some(parent) = parent.filter(|_| within != Some(node)) else {
+                        if within.is_none() {
+                            if answer.is_done() {
+                                self.put_status(0, Status::Idle);
+                            }
+                            self.rest();
                         }
-                        self.rest();
                         return Stop::Answered(answer);
                     };
-                    let position = self.tree.nodes[node].position;
-                    match answered(self, parent, position, answer) {
-                        Err(fault) => return thrown(Some(parent), fault),
-                        Ok(Move::Ask) => return self.ask(parent),
-                        Ok(Move::Idle) => {
-                            return thrown(self.tree.nodes[parent].parent, idle());
-                        }
-                        Ok(Move::Child(at)) => Cursor::Enter(self.child(parent, at)),
-                        Ok(Move::Answer(it)) => {
-                            if it == Answer::Failure
-                                && answer == Answer::Success
-                                && self.tree.nodes[parent].family
-                                    == crate::signature::Family::Control
-                            {
-                                self.lost.push((node as u32, parent as u32));
-                            }
-                            Cursor::Leave(parent, it)
-                        }
+                    let step = answered(self, parent, self.tree.nodes[node].position, answer);
+                    if let (Ok(Move::Answer(Answer::Failure)), Answer::Success) = (&step, answer)
+                        && self.tree.nodes[parent].family == crate::signature::Family::Control
+                    {
+                        self.lost.push((node as u32, parent as u32));
                     }
+                    Cursor::Step(parent, step)
                 }
             }
         }
@@ -335,10 +347,7 @@ impl<'t> Machine<'t> {
 
     fn ask(&mut self, node: usize) -> Stop {
         self.at = Some(node);
-        match self.question() {
-            Some(question) => Stop::Asked(question),
-            None => Stop::Thrown(Thrown { node: None, why: "no question".to_owned() }),
-        }
+        Stop::Asked(self.question_of(node))
     }
 
     /// Looks at the guards; returns an answer if the node is not to be ticked.

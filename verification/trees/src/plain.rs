@@ -1,16 +1,20 @@
 //! A plain walk through all that a tree can do, by which explorations and certificates are checked.
 //!
 //! Shares the executor with the exploration, and nothing else: whole machines are kept, not packed
-//! words; each state's ticks are walked for themselves; there is no graph of questions. It is slow
-//! and short on purpose.
+//! words; what goes on for ever is looked for by other code. It is slow and short on purpose.
+
+mod endless;
+mod graph;
 
 use crate::explore::{Assumptions, Condition, End, Property};
-use crate::machine::{How, Machine, Question, Reply, Status, Stop, Watched};
+use crate::findings::Wishes;
+use crate::machine::{Event, How, Machine, Question, Reply, Status, Stop, Watched, catches};
 use crate::supervisor::Part;
 use crate::tree::{Answer, Tree};
-use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
+use graph::{Edge, Graph, What};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
-/// Cells and entries between two ticks.
+/// Cells and entries.
 type State = (Vec<u32>, Vec<u32>);
 /// The same within a tick, with the node that asks and whether a wake-up is pending.
 type Within = (State, Option<usize>, bool);
@@ -26,6 +30,12 @@ pub struct Plain {
     pub ends: BTreeMap<End, u32>,
     /// States from which no end can be reached.
     pub stuck: usize,
+    /// Whether a fair run never ends.
+    pub forever: bool,
+    /// Actions that a fair run starts again and again without an end.
+    pub restarted: Vec<usize>,
+    /// Leaves that are asked before an entry that they read was written.
+    pub early: BTreeSet<(usize, String)>,
     /// Whether wake-ups can follow each other for ever.
     pub spins: bool,
     /// Whether halting throws in some state.
@@ -40,76 +50,69 @@ pub struct Plain {
     pub refused: BTreeMap<(usize, Part), u32>,
     /// Answers of each node, as bits: SUCCESS, FAILURE, RUNNING, SKIPPED.
     pub said: Vec<u8>,
-    /// Whether the condition of an own property held, and failed to hold, after some tick.
-    pub held: [bool; 2],
+    /// Whether the own property holds.
+    pub holds: Option<bool>,
 }
 
-struct Walk<'t, 'c> {
+struct Walk<'t, 'w> {
     machine: Machine<'t>,
     assumptions: Assumptions,
-    skips: bool,
-    condition: Option<&'c Condition>,
+    wishes: &'w Wishes,
+    /// Conditions that are looked at after each tick.
+    conditions: Vec<&'w Condition>,
     actions: Vec<usize>,
-    numbers: HashMap<State, u32>,
-    states: Vec<State>,
-    level: Vec<u32>,
-    /// Edges to states, and whether each ends with a wake-up.
-    next: Vec<Vec<(u32, bool)>>,
-    /// States with an edge to an end.
-    ends: Vec<bool>,
-    questions: usize,
+    graph: Graph,
+    /// States between ticks, in the order in which they were found.
+    states: Vec<usize>,
     found: Plain,
 }
 
 /// Questions of all ticks, for each state that is allowed.
-const QUESTIONS: usize = 50;
+const QUESTIONS: usize = 20;
 
 /// Walks through all states of a tree, at most so many; returns nothing where there are more, or
-/// more than 50 times as many questions.
-///
-/// An own property must be `AG p` or `EF p`.
+/// more than 20 times as many questions.
 pub fn walk(
     tree: &Tree,
-    skips: bool,
-    mut assumptions: Assumptions,
+    wishes: &Wishes,
     property: Option<&Property>,
     most: usize,
 ) -> Option<Plain> {
     let mut machine = Machine::new(tree);
-    let condition = match property {
-        Some(Property::Always(it) | Property::Sometime(it)) => Some(it),
-        Some(_) => return None,
-        None => None,
+    let conditions = match property {
+        Some(Property::Always(p) | Property::Sometime(p) | Property::Finally(p)) => vec![p],
+        Some(Property::Follows(p, q)) => vec![q, p],
+        None => Vec::new(),
     };
     let mut watched = Watched::default();
-    condition.iter().for_each(|it| it.watched(&mut watched));
+    conditions.iter().for_each(|it| it.watched(&mut watched));
     machine.watch(&watched);
+    let mut assumptions = wishes.assumptions.clone();
     assumptions.reserve(&mut machine);
     let actions = (0..tree.nodes.len()).filter(|it| tree.nodes[*it].is_action()).collect();
-    let start = snapshot(&machine);
     let mut walk = Walk {
         machine,
         assumptions,
-        skips,
-        condition,
+        wishes,
+        conditions,
         actions,
-        numbers: HashMap::new(),
+        graph: Graph::default(),
         states: Vec::new(),
-        level: Vec::new(),
-        next: Vec::new(),
-        ends: Vec::new(),
-        questions: 0,
         found: Plain::default(),
     };
-    walk.add(start, 0);
+    let (start, _) = walk.point(What::State, 0, 0);
+    walk.states.push(start);
     let mut at = 0;
     while at < walk.states.len() {
-        if walk.states.len() > most || !walk.ticks(at, most * QUESTIONS) {
+        let full = walk.states.len() > most || walk.graph.points.len() > most * (QUESTIONS + 1);
+        if full {
             return None;
         }
+        walk.ticks(walk.states[at]);
         at += 1;
     }
     walk.judge();
+    walk.found.holds = property.map(|it| walk.holds(it));
     Some(walk.found)
 }
 
@@ -122,21 +125,17 @@ fn snapshot(machine: &Machine) -> State {
 }
 
 impl Walk<'_, '_> {
-    fn add(&mut self, state: State, level: u32) -> u32 {
-        let next = self.states.len() as u32;
-        let number = *self.numbers.entry(state.clone()).or_insert(next);
-        if number == next {
-            self.states.push(state);
-            self.level.push(level);
-            self.next.push(Vec::new());
-            self.ends.push(false);
-        }
-        number
+    /// Returns the number of the machine as it is, and whether it is new.
+    fn point(&mut self, what: What, holds: u8, ticks: u32) -> (usize, bool) {
+        let within = match what {
+            What::End => ((vec![holds as u32], Vec::new()), None, true),
+            _ => (snapshot(&self.machine), self.machine.at, self.machine.wake),
+        };
+        self.graph.add(what, &within, holds, ticks)
     }
 
-    fn put(&mut self, (cells, entries): &State, at: Option<usize>, wake: bool) {
-        self.machine.cells.clone_from(cells);
-        self.machine.entries.clone_from(entries);
+    fn put(&mut self, (state, at, wake): Within) {
+        (self.machine.cells, self.machine.entries) = state;
         self.machine.entries.resize(self.machine.store.entries.len(), 0);
         (self.machine.at, self.machine.wake) = (at, wake);
         self.machine.events.clear();
@@ -145,48 +144,52 @@ impl Walk<'_, '_> {
         self.machine.begun.clear();
     }
 
-    /// Ticks a state in all ways; returns whether there were not too many.
-    fn ticks(&mut self, from: usize, most: usize) -> bool {
-        let state = self.states[from].clone();
-        self.put(&state, None, false);
+    /// Ticks a state in all ways, up to questions that were asked before.
+    fn ticks(&mut self, from: usize) {
+        let ((cells, entries), ..) = self.graph.within(from);
+        self.put(((cells, entries), None, false));
         for cell in self.machine.watched.iter().flatten() {
             self.machine.cells[*cell] = 0;
         }
-        let (mut open, mut known) = (Vec::new(), HashSet::new());
+        let mut open = Vec::new();
         let stop = self.machine.tick();
-        self.stopped(from, stop, &mut open, &mut known);
-        while let Some((state, at, wake)) = open.pop() {
-            self.put(&state, at, wake);
+        self.stopped(from, None, stop, &mut open);
+        while let Some(point) = open.pop() {
+            let within = self.graph.within(point);
+            self.put(within.clone());
             let Some(question) = self.machine.question() else { continue };
-            self.questions += 1;
-            if self.questions > most {
-                return false;
-            }
             for &reply in question.replies {
-                let skipped = reply == Reply::Leaf(Answer::Skipped) && !self.skips;
-                if skipped || !self.assumptions.allows(question.node, reply, &state.0) {
+                if !self.allows(question.node, reply, &within.0.0) {
                     continue;
                 }
-                self.put(&state, at, wake);
+                self.put(within.clone());
+                if self.machine.is_idle(reply) {
+                    continue;
+                }
                 if reply == Reply::Leaf(Answer::Success) {
                     self.assumptions.written(question.node, &mut self.machine.cells);
                 }
                 let stop = self.machine.reply(reply);
-                self.stopped(from, stop, &mut open, &mut known);
+                self.stopped(point, Some(reply), stop, &mut open);
             }
         }
-        true
+    }
+
+    fn allows(&mut self, node: usize, reply: Reply, cells: &[u32]) -> bool {
+        let skipped = reply == Reply::Leaf(Answer::Skipped) && !self.wishes.skips;
+        !skipped && self.assumptions.allows(node, reply, cells)
     }
 
     /// Notes where a tick has stopped.
-    fn stopped(
-        &mut self,
-        from: usize,
-        stop: Stop,
-        open: &mut Vec<Within>,
-        known: &mut HashSet<Within>,
-    ) {
-        let ticks = self.level[from] + 1;
+    fn stopped(&mut self, from: usize, reply: Option<Reply>, stop: Stop, open: &mut Vec<usize>) {
+        let ticks = self.graph.points[from].ticks + 1;
+        for event in &self.machine.events {
+            if let (Event::Itself(node, Answer::Success), true) =
+                (*event, self.machine.tree().bonds.is_some())
+            {
+                self.assumptions.written(node as usize, &mut self.machine.cells);
+            }
+        }
         for (child, node) in std::mem::take(&mut self.machine.lost) {
             least(&mut self.found.lost, (child as usize, node as usize), ticks);
         }
@@ -196,43 +199,50 @@ impl Walk<'_, '_> {
         for (node, other) in std::mem::take(&mut self.machine.begun) {
             least(&mut self.found.overlap, (node as usize, other as usize), ticks);
         }
+        let events = self.graph.list(&self.machine.events);
         let end = match stop {
             Stop::Asked(question) => {
                 self.starts(question, ticks);
-                let within = (snapshot(&self.machine), self.machine.at, self.machine.wake);
-                if known.insert(within.clone()) {
-                    open.push(within);
+                let what = What::Asks(question.node, question.how);
+                let (to, new) = self.point(what, 0, ticks - 1);
+                if new {
+                    open.push(to);
                 }
-                return;
+                let edge = Edge { to, reply, events, wakes: false };
+                return self.graph.points[from].edges.push(edge);
             }
             Stop::Answered(Answer::Running) => None,
             Stop::Answered(it) => Some(End::Answered(it)),
             Stop::Thrown(it) => Some(End::Thrown(it.node)),
             Stop::Halted => Some(End::Halted),
         };
-        if let Some(it) = self.condition {
-            self.found.held[it.holds(&self.machine, end.is_some()) as usize] = true;
-        }
-        if let Some(end) = end {
-            least(&mut self.found.ends, end, ticks);
-            self.ends[from] = true;
-            return;
+        let mut holds = 0;
+        for (bit, it) in self.conditions.iter().enumerate() {
+            holds |= (it.holds(&self.machine, end.is_some()) as u8) << bit;
         }
         let wakes = self.machine.wake;
-        let runs = self.actions.iter().copied().filter(|it| self.runs(*it));
-        let runs: Vec<_> = runs.collect();
+        let what = if end.is_some() { What::End } else { What::State };
+        self.machine.wake = false;
+        let (to, new) = self.point(what, holds, ticks);
+        self.graph.points[from].edges.push(Edge { to, reply, events, wakes });
+        if let Some(end) = end {
+            return least(&mut self.found.ends, end, ticks);
+        }
+        if !new {
+            return;
+        }
+        self.states.push(to);
+        let runs: Vec<_> = self.running().collect();
         for (at, &one) in runs.iter().enumerate() {
             for &two in &runs[at + 1..] {
                 least(&mut self.found.both, (one, two), ticks);
             }
         }
-        let state = snapshot(&self.machine);
-        let to = self.add(state, ticks);
-        self.next[from].push((to, wakes));
     }
 
-    fn runs(&self, node: usize) -> bool {
-        self.machine.status(node) == Status::Running
+    fn running(&self) -> impl Iterator<Item = usize> + '_ {
+        let all = self.actions.iter().copied();
+        all.filter(|it| self.machine.status(*it) == Status::Running)
     }
 
     fn starts(&mut self, question: Question, ticks: u32) {
@@ -240,11 +250,8 @@ impl Walk<'_, '_> {
         if question.how != How::Starts || !self.actions.contains(&node) {
             return;
         }
-        for at in 0..self.actions.len() {
-            let other = self.actions[at];
-            if other != node && self.runs(other) {
-                least(&mut self.found.overlap, (node, other), ticks);
-            }
+        for other in self.running().filter(|it| *it != node).collect::<Vec<_>>() {
+            least(&mut self.found.overlap, (node, other), ticks);
         }
     }
 
@@ -252,46 +259,43 @@ impl Walk<'_, '_> {
     fn judge(&mut self) {
         self.found.states = self.states.len();
         self.found.said.clone_from(&self.machine.said);
-        // From the states with an end backwards.
-        let mut before = vec![Vec::new(); self.states.len()];
-        for (from, next) in self.next.iter().enumerate() {
-            next.iter().for_each(|it| before[it.0 as usize].push(from));
-        }
-        let mut can = self.ends.clone();
-        let mut work: Vec<_> = (0..can.len()).filter(|it| can[*it]).collect();
-        while let Some(at) = work.pop() {
-            for &from in &before[at] {
-                if !std::mem::replace(&mut can[from], true) {
-                    work.push(from);
-                }
-            }
-        }
-        self.found.stuck = can.iter().filter(|it| !**it).count();
-        // States that no wake-up leads to are taken away until none is left, or a circle.
-        let mut into = vec![0; self.states.len()];
-        let wakes = |next: &Vec<(u32, bool)>| {
-            let all = next.iter().filter(|it| it.1);
-            all.map(|it| it.0 as usize).collect::<HashSet<_>>()
-        };
-        let wakes: Vec<_> = self.next.iter().map(wakes).collect();
-        wakes.iter().flatten().for_each(|it| into[*it] += 1);
-        let mut work: VecDeque<_> = (0..into.len()).filter(|it| into[*it] == 0).collect();
-        let mut left = into.len();
-        while let Some(at) = work.pop_front() {
-            left -= 1;
-            for &to in &wakes[at] {
-                into[to] -= 1;
-                if into[to] == 0 {
-                    work.push_back(to);
-                }
-            }
-        }
-        self.found.spins = left > 0;
-        let halts = self.machine.tree.nodes.iter().any(|it| it.afterwards.on_halted.is_some());
+        let can = self.graph.can_end();
+        self.found.stuck = self.states.iter().filter(|it| !can[**it]).count();
+        self.found.spins = self.spins();
+        self.found.forever = self.goes_on_forever();
+        self.found.restarted = self.restarted();
+        self.found.early = self.early();
+        let tree = self.machine.tree();
+        let halts = tree.nodes.iter().any(|it| it.afterwards.on_halted.is_some()) || catches(tree);
         for at in 0..if halts { self.states.len() } else { 0 } {
-            let state = self.states[at].clone();
-            self.put(&state, None, false);
-            self.found.halting_throws |= self.machine.halt_tree().is_err();
+            self.halts(self.states[at]);
+        }
+    }
+
+    /// Halts a state in all ways.
+    fn halts(&mut self, state: usize) {
+        self.put(self.graph.within(state));
+        let (mut open, mut known) = (Vec::new(), HashSet::new());
+        let mut stop = self.machine.halt_tree();
+        loop {
+            match stop {
+                Stop::Thrown(_) => self.found.halting_throws = true,
+                Stop::Asked(question) => {
+                    let within = (snapshot(&self.machine), self.machine.at, self.machine.wake);
+                    if known.insert(within.clone()) {
+                        open.extend(question.replies.iter().map(|it| (within.clone(), *it)));
+                    }
+                }
+                Stop::Answered(_) | Stop::Halted => {}
+            }
+            stop = loop {
+                let Some((within, reply)) = open.pop() else { return };
+                let node = within.1.unwrap_or_default();
+                if self.allows(node, reply, &within.0.0) {
+                    self.put(within);
+                    break self.machine.reply(reply);
+                }
+            };
         }
     }
 }

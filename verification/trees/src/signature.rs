@@ -127,6 +127,10 @@ pub(crate) const ALL: &[Signature] = &[
     node("RoundRobin", Control, &[or("wrap_around", Truth, "false")]),
     node("NonblockingSequence", Control, &[]),
     node("PersistentSequence", Control, &[given("current_child_idx", Integer)]),
+    node("ManualSelector", Control, &[or("repeat_last_selection", Truth, "false")]),
+    node("PauseResumeController", Control, {
+        &[may("pause_service_name", Text), may("resume_service_name", Text)]
+    }),
     node("Inverter", Decorator, &[]),
     node("ForceSuccess", Decorator, &[]),
     node("ForceFailure", Decorator, &[]),

@@ -81,6 +81,16 @@ pub enum Gate {
     GoalUpdated,
 }
 
+/// Items that a loop takes one after the other.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Queue {
+    /// Constants, which each run has anew.
+    Items(Vec<Value>),
+    /// An entry, with the type of its items. A text there is taken up once, and used up for good;
+    /// of what the world puts there it is asked whether an item is left.
+    Entry(String, EntryType),
+}
+
 /// Type of a node, with its ports.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
@@ -95,12 +105,14 @@ pub enum Kind {
     IfThenElse,
     WhileDoElse,
     Switch { variable: Option<Port>, cases: Vec<Option<Port>> },
-    TryCatch,
+    TryCatch { on_halt: bool },
     PipelineSequence,
     RecoveryNode { retries: Number },
     RoundRobin { wraps: bool },
     NonblockingSequence,
     PersistentSequence { index: String },
+    ManualSelector { repeats: bool },
+    PauseResumeController,
     Inverter,
     ForceSuccess,
     ForceFailure,
@@ -114,7 +126,7 @@ pub enum Kind {
     Precondition { condition: Script, otherwise: Answer },
     SkipUnlessUpdated { entry: String },
     WaitValueUpdate { entry: String },
-    Loop { queue: Vec<Value>, value: Option<String>, if_empty: Answer },
+    Loop { queue: Queue, value: Option<String>, if_empty: Answer },
     Gate(Gate),
     GoalUpdater,
     PathLongerOnApproach,

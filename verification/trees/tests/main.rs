@@ -3,14 +3,17 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::pedantic)]
 
 mod broken;
+mod certificates;
 mod facts;
 mod families;
 mod folder;
 mod found;
+mod maker;
 mod mutants;
 mod pictures;
 mod plain;
 mod random;
 mod skips;
+mod steered;
 mod supervised;
 mod traces;

@@ -1,7 +1,6 @@
 //! Pictures of random trees: nothing overlaps, nothing crosses.
 
-use crate::random::Maker;
-use cotama_streams::Streams;
+use crate::maker::Maker;
 use cotama_trees::picture::svg;
 use cotama_trees::reader::read_text;
 
@@ -57,7 +56,7 @@ fn meet(a: &Box, b: &Box) -> bool {
 
 #[test]
 fn no_node_overlaps_and_no_line_crosses() {
-    let mut maker = Maker { stream: Streams::new(46).stream("pictures"), leaves: 0 };
+    let mut maker = Maker::new("pictures");
     let mut largest = 0;
     for number in 0..300 {
         let text = maker.tree_of(2 + number % 11);

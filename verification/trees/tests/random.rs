@@ -1,119 +1,13 @@
 //! Random trees: ticked by ours and by the second program, and read after random damage.
 
 use crate::folder::folder;
-use cotama_streams::{Stream, Streams};
+use crate::maker::Maker;
 use cotama_trees::explore::{Assumptions, Limits, Space};
 use cotama_trees::machine::{Machine, Reply, Stop};
 use cotama_trees::reader::{Options, read, read_text};
 use std::fmt::Write as _;
 
-const CONTROLS: [&str; 14] = [
-    "Sequence",
-    "Fallback",
-    "AsyncSequence",
-    "AsyncFallback",
-    "SequenceWithMemory",
-    "ReactiveSequence",
-    "ReactiveFallback",
-    "Parallel",
-    "ParallelAll",
-    "PipelineSequence",
-    "RoundRobin",
-    "RecoveryNode",
-    "IfThenElse",
-    "WhileDoElse",
-];
-const DECORATORS: [(&str, &str); 16] = [
-    ("Inverter", ""),
-    ("ForceSuccess", ""),
-    ("ForceFailure", ""),
-    ("KeepRunningUntilFailure", ""),
-    ("Repeat", " num_cycles=\"2\""),
-    ("RetryUntilSuccessful", " num_attempts=\"3\""),
-    ("RunOnce", ""),
-    ("SingleTrigger", ""),
-    ("RateController", ""),
-    ("PathLongerOnApproach", ""),
-    ("GoalUpdater", ""),
-    ("Delay", " delay_msec=\"50\""),
-    ("Timeout", " msec=\"70\""),
-    ("Precondition", " if=\"x == 1\" else=\"SKIPPED\""),
-    ("SkipUnlessUpdated", " entry=\"{x}\""),
-    ("LoopInt", " queue=\"1;2\" value=\"{x}\""),
-];
-const GUARDS: [&str; 6] = [
-    " _skipIf=\"x == 1\"",
-    " _while=\"x != 2\"",
-    " _failureIf=\"x == 3\"",
-    " _onSuccess=\"x = 1\"",
-    " _onHalted=\"x = 2\"",
-    " _post=\"x += 1\"",
-];
-
-pub(crate) struct Maker {
-    pub(crate) stream: Stream,
-    pub(crate) leaves: usize,
-}
-
 impl Maker {
-    pub(crate) fn below(&mut self, most: usize) -> usize {
-        self.stream.below(most as u64) as usize
-    }
-
-    fn node(&mut self, level: usize, out: &mut String) {
-        let guard = if self.below(6) == 0 { GUARDS[self.below(GUARDS.len())] } else { "" };
-        if level == 0 || self.below(4) == 0 {
-            self.leaves += 1;
-            let number = self.leaves;
-            let leaf = match self.below(12) {
-                0..=4 => format!("A{number}"),
-                5 => format!("B{number}"),
-                6 | 7 => format!("C{number}"),
-                8 => format!("S{number}"),
-                9 => format!("L{number}"),
-                10 => "Script code=\"x = x + 1\"".to_owned(),
-                _ => "Sleep msec=\"30\"".to_owned(),
-            };
-            let _ = write!(out, "<{leaf}{guard}/>");
-            return;
-        }
-        if self.below(3) == 0 {
-            let (tag, ports) = DECORATORS[self.below(DECORATORS.len())];
-            let _ = write!(out, "<{tag}{ports}{guard}>");
-            self.node(level - 1, out);
-            let _ = write!(out, "</{tag}>");
-            return;
-        }
-        let tag = CONTROLS[self.below(CONTROLS.len())];
-        let count = match tag {
-            "RecoveryNode" => 2,
-            "IfThenElse" | "WhileDoElse" => 2 + self.below(2),
-            _ => 1 + self.below(3),
-        };
-        let ports = match tag {
-            "Parallel" => format!(" success_count=\"{}\"", 1 + self.below(count)),
-            "RoundRobin" if self.below(2) == 0 => " wrap_around=\"true\"".to_owned(),
-            _ => String::new(),
-        };
-        let _ = write!(out, "<{tag}{ports}{guard}>");
-        for _ in 0..count {
-            self.node(level - 1, out);
-        }
-        let _ = write!(out, "</{tag}>");
-    }
-
-    pub(crate) fn tree(&mut self) -> String {
-        self.tree_of(3)
-    }
-
-    pub(crate) fn tree_of(&mut self, levels: usize) -> String {
-        self.leaves = 0;
-        let mut out = "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Main\"><Sequence>".to_owned();
-        out += "<Script code=\"x := 0\"/>";
-        self.node(levels, &mut out);
-        out + "</Sequence></BehaviorTree></root>\n"
-    }
-
     /// Plays runs with random replies, and writes them as a trace.
     fn trace(&mut self, text: &str, runs: usize) -> String {
         let tree = read_text(text).unwrap_or_else(|it| panic!("{text}: {it}")).tree;
@@ -149,7 +43,7 @@ impl Maker {
                     }
                 };
                 let (op, status) = if halts {
-                    let status = if machine.halt_tree().is_ok() { "H" } else { "X" };
+                    let status = if machine.halt_tree() == Stop::Halted { "H" } else { "X" };
                     let events = machine.take_events();
                     let shown: Vec<_> = events.iter().map(|it| it.shown(&tree)).collect();
                     parts.push(shown.join(" "));
@@ -190,7 +84,7 @@ print(different, 'differ')
 #[ignore = "some seconds, and Python: CI runs it"]
 fn a_thousand_random_trees_tick_as_in_the_second_program() {
     let Some(folder) = folder() else { return };
-    let mut maker = Maker { stream: Streams::new(46).stream("trees"), leaves: 0 };
+    let mut maker = Maker::new("trees");
     let place = std::env::temp_dir().join(format!("cotama-trees-{}", std::process::id()));
     std::fs::create_dir_all(&place).unwrap();
     for number in 0..1_000 {
@@ -232,7 +126,7 @@ for n in range(int(sys.argv[3])):
 #[ignore = "half a minute, and Python: CI runs it"]
 fn walks_through_what_the_second_program_explored_are_walks_of_ours() {
     let Some(folder) = folder() else { return };
-    let mut maker = Maker { stream: Streams::new(46).stream("walks"), leaves: 0 };
+    let mut maker = Maker::new("walks");
     let place = std::env::temp_dir().join(format!("cotama-walks-{}", std::process::id()));
     std::fs::create_dir_all(&place).unwrap();
     let texts: Vec<_> = (0..1_000).map(|_| maker.tree_of(2)).collect();
@@ -299,7 +193,7 @@ for n in range(int(sys.argv[3])):
 #[ignore = "a minute, and Python: CI runs it"]
 fn facts_of_random_trees_equal_those_of_the_second_program() {
     let Some(folder) = folder() else { return };
-    let mut maker = Maker { stream: Streams::new(46).stream("facts"), leaves: 0 };
+    let mut maker = Maker::new("facts");
     let place = std::env::temp_dir().join(format!("cotama-facts-{}", std::process::id()));
     std::fs::create_dir_all(&place).unwrap();
     let texts: Vec<_> = (0..500).map(|_| maker.tree_of(2)).collect();
@@ -330,7 +224,7 @@ fn facts_of_random_trees_equal_those_of_the_second_program() {
 
 /// Reads damaged trees; whatever can be read is explored a little.
 fn damaged(count: usize) -> (usize, usize) {
-    let mut maker = Maker { stream: Streams::new(46).stream("damage"), leaves: 0 };
+    let mut maker = Maker::new("damage");
     let signs = b"<>/\"'=&; {}AxR01-\n\xff";
     let (mut loaded, mut refused) = (0, 0);
     for _ in 0..count {

@@ -1,12 +1,12 @@
 //! Trees with a supervisor beside them: nets of the project, and what their players do.
 
-use crate::random::Maker;
+use crate::maker::Maker;
+use crate::plain::{agrees, properties};
 use cotama_core::net::Net;
 use cotama_core::player::Outcome;
 use cotama_core::system::{Component, System};
 use cotama_core::units::Millis;
 use cotama_models::nets::{by_hand, door};
-use cotama_streams::Streams;
 use cotama_trees::explore::{
     Assumptions, End, Limits, Pair, Run, Space, check_property, parse_property,
 };
@@ -172,7 +172,7 @@ fn play(door: &mut door::Player, tree: &Tree, event: Event, now: &mut Millis) {
 
 /// Walks through random ticks of random trees beside a door; returns the ticks.
 fn walks(count: usize, period: Option<u32>) -> usize {
-    let mut maker = Maker { stream: Streams::new(46).stream("beside a door"), leaves: 0 };
+    let mut maker = Maker::new("beside a door");
     let net = supervisor(&door::NET, period);
     let mut ticks = 0;
     for _ in 0..count {
@@ -262,22 +262,31 @@ fn the_door_beside_a_tree_does_what_its_player_does() {
 
 #[test]
 fn explorations_beside_a_supervisor_agree_with_a_plain_walk() {
-    let mut maker = Maker { stream: Streams::new(46).stream("plain, supervised"), leaves: 0 };
+    let mut maker = Maker::new("plain, supervised");
     let nets = [
         (supervisor(&door::NET, Some(1_500)), DOORS),
         (supervisor(&by_hand::local::NET, None), DRIVES),
     ];
     let (mut compared, mut refused, mut runs) = (0, 0, 0);
+    let (mut dice, mut said) = (Maker::new("properties beside"), [0; 2]);
     for number in 0..200 {
         let text = maker.tree_of(2);
         let mut tree = reader::read_text(&text).unwrap().tree;
         let (net, lines) = &nets[number % 2];
         let all = Bindings::read(&bonds(&tree, *lines)).unwrap();
         all.bind(&mut tree, net.clone()).unwrap();
+        let Some(plain) = walk(&tree, &Wishes::default(), None, 2_000) else { continue };
         let none = Assumptions::default();
-        let Some(plain) = walk(&tree, false, none.clone(), None, 2_000) else { continue };
         let mut space = Space::explore(&tree, false, none, Limits::default());
         let facts = space.facts(&[]);
+        agrees(&facts, &plain, &text);
+        for property in properties(&tree, &mut dice) {
+            let found =
+                check_property(&tree, &property, false, Assumptions::default(), Limits::default());
+            let plain = walk(&tree, &Wishes::default(), Some(&property), 20_000);
+            assert_eq!(plain.and_then(|it| it.holds), found.holds, "{property:?} {text}");
+            said[found.holds.unwrap() as usize] += 1;
+        }
         let pairs = |all: &[Pair]| all.iter().map(|it| (it.nodes, it.ticks)).collect();
         assert_eq!(facts.states, plain.states, "{text}");
         assert_eq!(facts.ends, plain.ends, "{text}");
@@ -294,7 +303,7 @@ fn explorations_beside_a_supervisor_agree_with_a_plain_walk() {
         }
         compared += 1;
     }
-    assert_eq!((compared, refused, runs), (196, 15, 105));
+    assert_eq!((compared, refused, runs, said), (196, 15, 105, [310, 474]));
 }
 
 #[test]

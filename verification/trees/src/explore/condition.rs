@@ -27,7 +27,7 @@ pub enum Condition {
 }
 
 impl Condition {
-    /// Adds what the condition asks for beyond the status of nodes.
+    /// Adds what the condition asks for.
     pub(crate) fn watched(&self, into: &mut Watched) {
         match self {
             Condition::Answers(node, _) | Condition::Ticked(node) => {
@@ -39,7 +39,10 @@ impl Condition {
                 a.watched(into);
                 b.watched(into);
             }
-            Condition::Is(_) | Condition::Has(..) | Condition::Done => {}
+            Condition::Has(node, _) => {
+                into.statuses.insert(*node);
+            }
+            Condition::Is(_) | Condition::Done => {}
         }
     }
 

@@ -1,13 +1,14 @@
 //! Runs that never end, and which of them are fair.
 //!
 //! A run is fair if every action that runs ends or is halted again and again, and every gate that
-//! is asked again and again opens again and again. Conditions are never assumed to be fair.
+//! is asked again and again opens again and again; somebody who is asked chooses at last, pauses no
+//! tree for ever anew, and queues are empty at last. Conditions are never assumed to be fair.
 
 use super::Space;
 use super::graph::What;
 use crate::machine::{Event, How, Reply};
 use crate::supervisor::Part;
-use crate::tree::Answer;
+use crate::tree::{Answer, Kind};
 use std::collections::{BTreeSet, VecDeque};
 
 /// Points that can be walked through for ever.
@@ -144,9 +145,11 @@ impl Space<'_> {
         let (mut asked, mut opened) = (BTreeSet::new(), BTreeSet::new());
         for &(_, edge) in &circle.edges {
             for event in self.events(edge as usize) {
-                match event {
-                    Event::Asked(node, How::Looks, Reply::No) => asked.insert(*node),
-                    Event::Asked(node, How::Looks, _) => opened.insert(*node),
+                match *event {
+                    Event::Asked(node, How::Looks, it) if self.waits(node, it) => {
+                        asked.insert(node)
+                    }
+                    Event::Asked(node, How::Looks, _) if !self.pauses(node) => opened.insert(node),
                     _ => false,
                 };
             }
@@ -155,8 +158,10 @@ impl Space<'_> {
         if !closed.is_empty() {
             let smaller = |space: &Space, edge: usize| {
                 keep(space, edge)
-                    && !space.events(edge).iter().any(|it| match it {
-                        Event::Asked(node, How::Looks, Reply::No) => closed.contains(node),
+                    && !space.events(edge).iter().any(|it| match *it {
+                        Event::Asked(node, How::Looks, it) => {
+                            space.waits(node, it) && closed.contains(&node)
+                        }
                         _ => false,
                     })
             };
@@ -187,6 +192,23 @@ impl Space<'_> {
             needed.push(*circle.edges.iter().find(|it| need(self, it.1 as usize))?);
         }
         Some(Circle { needed, ..circle.clone() })
+    }
+
+    /// Returns whether a reply is not given for ever: a gate stays closed, a queue has one more
+    /// item, somebody who is to choose says RUNNING.
+    fn waits(&self, node: u32, reply: Reply) -> bool {
+        reply
+            == match self.tree.nodes.get(node as usize).map(|it| &it.kind) {
+                Some(Kind::Loop { .. }) => Reply::Yes,
+                Some(Kind::ManualSelector { .. }) => Reply::Leaf(Answer::Running),
+                _ => Reply::No,
+            }
+    }
+
+    /// Returns whether a node can be paused, which does not happen again and again without an end.
+    fn pauses(&self, node: u32) -> bool {
+        let kind = self.tree.nodes.get(node as usize).map(|it| &it.kind);
+        kind == Some(&Kind::PauseResumeController)
     }
 
     /// Returns whether something can happen on a way from a circle on.
@@ -252,18 +274,23 @@ impl Space<'_> {
             }
             path.extend(self.way(circle, at, start));
             // A gate that says no on the way must open too.
-            let looks = |reply| {
+            let looks = |waits| {
                 let events = path.iter().flat_map(|it| self.events(*it));
-                let nodes = events.filter_map(move |it| match it {
-                    Event::Asked(node, How::Looks, found) if *found == reply => Some(*node),
+                let nodes = events.filter_map(move |it| match *it {
+                    Event::Asked(node, How::Looks, it) if self.waits(node, it) == waits => {
+                        Some(node)
+                    }
                     _ => None,
                 });
                 nodes.collect::<BTreeSet<_>>()
             };
-            let closed = looks(Reply::No).difference(&looks(Reply::Yes)).copied().next();
+            let closed = looks(true).difference(&looks(false)).copied().next();
             let opens = closed.and_then(|node| {
-                let open = Event::Asked(node, How::Looks, Reply::Yes);
-                circle.edges.iter().find(|it| self.events(it.1 as usize).contains(&open))
+                let opens = |it: &Event| match *it {
+                    Event::Asked(at, How::Looks, it) => at == node && !self.waits(node, it),
+                    _ => false,
+                };
+                circle.edges.iter().find(|it| self.events(it.1 as usize).iter().any(opens))
             });
             match opens {
                 Some(&edge) => needed.push(edge),

@@ -1,7 +1,7 @@
 //! Points and edges of the graph.
 
 use super::Space;
-use crate::machine::Reply;
+use crate::machine::{MOST_MOVES, Reply};
 use crate::tree::{Answer, Tree};
 
 /// How a run ends.
@@ -78,6 +78,8 @@ pub(crate) struct Edge {
 }
 
 pub(super) const WAKES: u32 = 0x80;
+/// Code of the first child that somebody may choose, above those of a supervisor's moves.
+const FIRST_CHILD: u32 = 8 + MOST_MOVES as u32;
 /// Sequences of events that an edge can name.
 pub(super) const MAX_SEQUENCES: u32 = 1 << 24;
 
@@ -89,6 +91,7 @@ pub(super) fn code(reply: Option<Reply>) -> u32 {
         Some(Reply::No) => 6,
         Some(Reply::Rest) => 7,
         Some(Reply::Net(it)) => 8 + it as u32,
+        Some(Reply::Child(it)) => FIRST_CHILD + it as u32,
     }
 }
 
@@ -102,6 +105,7 @@ impl Edge {
             5 => Reply::Yes,
             6 => Reply::No,
             7 => Reply::Rest,
+            it @ FIRST_CHILD.. => Reply::Child((it - FIRST_CHILD) as u8),
             it @ 8.. => Reply::Net(it as u8 - 8),
             _ => return None,
         })

@@ -3,8 +3,7 @@
 use super::Space;
 use super::graph::{End, What};
 use super::keys::Map;
-use crate::machine::Status;
-use crate::tree::Node;
+use crate::machine::How;
 
 /// View of a point at once.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -23,8 +22,8 @@ impl Space<'_> {
             let sight = match self.what(point) {
                 What::State => Sight::State,
                 What::Asks(node) => {
-                    let runs = self.tree.nodes.get(node).is_some_and(Node::is_action);
-                    Sight::Asks(node, runs && self.at(point).status(node) == Status::Running)
+                    let how = self.at(point).question().map(|it| it.how);
+                    Sight::Asks(node, how == Some(How::Goes))
                 }
                 What::End(End::Answered(it)) => Sight::End(it as u8, 0),
                 What::End(End::Halted) => Sight::End(10, 0),

@@ -135,7 +135,8 @@ impl Pack {
             return machine.cells.fill(0);
         }
         let watched = machine.watched.iter().flatten().copied();
-        let watched: Vec<_> = watched.chain(machine.watched_net()).collect();
+        let kept = machine.kept.iter().copied();
+        let watched: Vec<_> = watched.chain(machine.watched_net()).chain(kept).collect();
         for (cell, value) in machine.cells.iter_mut().enumerate() {
             if !watched.contains(&cell) {
                 *value = 0;

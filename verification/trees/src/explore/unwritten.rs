@@ -2,7 +2,7 @@
 
 use super::Space;
 use super::graph::What;
-use crate::machine::{Event, How, Reply, Status};
+use crate::machine::{Event, How, Reply};
 use crate::tree::{Answer, Kind};
 use std::collections::VecDeque;
 
@@ -49,9 +49,9 @@ impl Space<'_> {
             };
             if let Some(node) = asks
                 && tree.nodes[node].reads.contains(entry)
-                && matches!(tree.nodes[node].kind, Kind::Leaf(_))
+                && matches!(tree.nodes[node].kind, Kind::Leaf(_) | Kind::Loop { .. })
                 && !done.contains(&node)
-                && self.starts(point, node)
+                && self.starts(point)
             {
                 done.push(node);
                 let mut path = Vec::new();
@@ -100,11 +100,8 @@ impl Space<'_> {
         }
     }
 
-    /// Returns whether a leaf is asked without running.
-    fn starts(&mut self, point: usize, node: usize) -> bool {
-        let running = self.at(point).status(node) == Status::Running;
-        let runs = matches!(self.tree.nodes[node].kind, Kind::Leaf(kind) if kind.runs());
-        let how = if running && runs { How::Goes } else { How::Starts };
-        how == How::Starts
+    /// Returns whether a leaf is asked without running, or a loop whether an item is left.
+    fn starts(&mut self, point: usize) -> bool {
+        self.at(point).question().is_some_and(|it| it.how != How::Goes)
     }
 }

@@ -225,10 +225,7 @@ impl<'t> Machine<'t> {
         let bonds = self.bonds()?;
         let noted = self.beside.as_ref().and_then(|it| it.cancelled);
         let is_so = self.is_seen(&bonds.cancels, noted.is_some_and(|it| self.cells[it] == 1));
-        is_so.then(|| match self.halt_tree() {
-            Ok(()) => Stop::Halted,
-            Err(thrown) => Stop::Thrown(thrown),
-        })
+        is_so.then(|| self.halt_all())
     }
 
     /// Ticks a leaf that is bound to the supervisor.

@@ -154,7 +154,7 @@ impl Machine<'_> {
     }
 
     /// Tells all who watch an entry that it was written.
-    fn touch(&mut self, number: usize) {
+    pub(super) fn touch(&mut self, number: usize) {
         for at in 0..self.store.watchers.len() {
             let (node, key) = self.store.watchers[at].clone();
             if self.entry(self.tree.nodes[node].board, &key) == number {

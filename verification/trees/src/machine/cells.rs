@@ -1,6 +1,6 @@
 //! Cells of a machine: small numbers, each with the bits that it takes.
 
-use crate::tree::{Kind, Number, Tree};
+use crate::tree::{Kind, Number, Queue, Tree};
 use std::ops::Range;
 
 /// Which cells a tree has.
@@ -64,7 +64,7 @@ fn cells(kind: &Kind, children: usize) -> Cells {
         }
         Kind::IfThenElse => (vec![2], Vec::new(), 0..1),
         Kind::Switch { .. } => (vec![place], Vec::new(), 0..1),
-        Kind::TryCatch => (vec![place, place, 1], Vec::new(), 0..3),
+        Kind::TryCatch { .. } => (vec![place, place, 1], Vec::new(), 0..3),
         Kind::PipelineSequence => (vec![place], vec![place], 0..1),
         Kind::RecoveryNode { retries } => {
             let most = match retries {
@@ -84,7 +84,13 @@ fn cells(kind: &Kind, children: usize) -> Cells {
         Kind::SkipUnlessUpdated { .. } | Kind::WaitValueUpdate { .. } => {
             (vec![1, 1], Vec::new(), 1..2)
         }
-        Kind::Loop { queue, .. } => (vec![bits(queue.len()), 1], Vec::new(), 0..0),
+        Kind::Loop { queue: Queue::Items(items), .. } => {
+            (vec![bits(items.len()), 1], Vec::new(), 0..0)
+        }
+        // Number of the text that is left, child runs.
+        Kind::Loop { queue: Queue::Entry(..), .. } => (vec![32, 1], Vec::new(), 0..0),
+        Kind::ManualSelector { .. } => (vec![place, bits(children + 3)], Vec::new(), 0..1),
+        Kind::PauseResumeController => (vec![2], vec![1], 0..1),
         Kind::Precondition { .. }
         | Kind::Gate(_)
         | Kind::PathLongerOnApproach

@@ -1,7 +1,7 @@
 //! Control nodes of the library.
 
 use super::parallel::{enter_parallel, enter_parallel_all, parallel, parallel_all};
-use super::{Fault, Machine, Move, Status, fault};
+use super::{Fault, Machine, Move, Status, choices, fault};
 use crate::script::same;
 use crate::tree::{Answer, Kind, Port};
 
@@ -53,7 +53,7 @@ pub(super) fn enter(m: &mut Machine, node: usize, kind: &Kind) -> Option<Step> {
             child(0)
         }
         Kind::Switch { variable, cases } => enter_switch(m, node, variable.as_ref(), cases),
-        Kind::TryCatch => {
+        Kind::TryCatch { .. } => {
             if !m.is_active(node) {
                 m.set(node, SKIPPED, 0);
                 m.set(node, CATCHING, 0);
@@ -61,6 +61,7 @@ pub(super) fn enter(m: &mut Machine, node: usize, kind: &Kind) -> Option<Step> {
             m.put_status(node, Status::Running);
             try_next(m, node)
         }
+        Kind::ManualSelector { repeats } => choices::enter_manual(m, node, *repeats),
         _ => return None,
     })
 }
@@ -84,7 +85,8 @@ pub(super) fn answered(
         Kind::IfThenElse => if_then_else(m, node, at, it),
         Kind::WhileDoElse => while_do_else(m, node, at, it),
         Kind::Switch { .. } => switch(m, node, at, it),
-        Kind::TryCatch => try_catch(m, node, it),
+        Kind::TryCatch { .. } => try_catch(m, node, it),
+        Kind::ManualSelector { .. } => choices::manual(m, node, at, it),
         _ => return None,
     })
 }
@@ -272,7 +274,7 @@ fn switch(m: &mut Machine, node: usize, at: usize, it: Answer) -> Step {
 }
 
 /// Third cell of a try: whether the last child catches.
-const CATCHING: usize = 2;
+pub(super) const CATCHING: usize = 2;
 
 fn try_next(m: &mut Machine, node: usize) -> Step {
     let last = m.children(node).len() - 1;

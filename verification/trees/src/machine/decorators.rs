@@ -1,6 +1,6 @@
 //! Decorators of the library and of Nav2.
 
-use super::{Fault, Machine, Move, Status, fault};
+use super::{Fault, Machine, Move, Status, fault, queues};
 use crate::tree::{Answer, Gate, Kind, Number};
 
 type Step = Result<Move, Fault>;
@@ -54,22 +54,7 @@ pub(super) fn enter(m: &mut Machine, node: usize, kind: &Kind) -> Option<Step> {
         Kind::SkipUnlessUpdated { .. } => updated(m, node, Answer::Skipped),
         Kind::WaitValueUpdate { .. } => updated(m, node, Answer::Running),
         Kind::Loop { queue, value, if_empty } => {
-            if m.status(node) == Status::Idle {
-                m.set(node, 0, 0);
-                m.set(node, 1, 0);
-            }
-            if m.get(node, 1) == 0 {
-                let at = m.get(node, 0);
-                let Some(item) = queue.get(at as usize) else { return Some(answer(*if_empty)) };
-                if let Some(key) = value {
-                    m.put(m.tree.nodes[node].board, key, item);
-                }
-                m.set(node, 0, at + 1);
-            }
-            if m.status(node) == Status::Idle {
-                m.put_status(node, Status::Running);
-            }
-            CHILD
+            queues::enter(m, node, queue, value.as_deref(), *if_empty)
         }
         Kind::Gate(gate) => enter_gate(m, node, *gate),
         Kind::PathLongerOnApproach => {
@@ -215,12 +200,15 @@ fn not_longer(m: &mut Machine, node: usize) -> Step {
 }
 
 /// Goes on after a decorator has looked at the world.
-pub(super) fn looked(m: &mut Machine, node: usize, yes: bool) -> Move {
-    let longer = m.tree.nodes[node].kind == Kind::PathLongerOnApproach;
-    if yes {
-        return Move::Child(0);
+pub(super) fn looked(m: &mut Machine, node: usize, yes: bool) -> Step {
+    match &m.tree.nodes[node].kind {
+        Kind::Loop { value, if_empty, .. } => {
+            queues::looked(m, node, value.as_deref(), *if_empty, yes)
+        }
+        _ if yes => CHILD,
+        Kind::PathLongerOnApproach => answer(Answer::Success),
+        _ => answer(Answer::Running),
     }
-    Move::Answer(if longer { Answer::Success } else { Answer::Running })
 }
 
 /// Takes the answer of the child.
@@ -273,13 +261,7 @@ pub(super) fn answered(m: &mut Machine, node: usize, kind: &Kind, it: Answer) ->
             m.set(node, 1, (it == Answer::Running) as u32);
             answer(it)
         }
-        Kind::Loop { .. } => {
-            m.set(node, 1, (it == Answer::Running) as u32);
-            if it.is_done() {
-                m.reset(child)?;
-            }
-            answer(if it == Answer::Failure { it } else { Answer::Running })
-        }
+        Kind::Loop { .. } => queues::answered(m, node, it),
         Kind::Gate(_) => {
             m.set(node, 0, 0);
             if it == Answer::Success {

@@ -1,8 +1,9 @@
 //! Scripts, and halting: memory, children, the script afterwards.
 
 use super::boards::OnBoard;
-use super::{Fault, Machine, Status, Thrown, leaves};
+use super::{Fault, Machine, Status, Stop, choices, leaves};
 use crate::script::{Script, Value, evaluate, truth};
+use crate::tree::Kind;
 
 impl Machine<'_> {
     /// Runs a script of a node, and returns its value.
@@ -34,6 +35,11 @@ impl Machine<'_> {
     /// Halts a node: its memory, its children, its script.
     pub(crate) fn halt(&mut self, node: usize) -> Result<(), Fault> {
         if !leaves::halted(self, node) {
+            match self.tree.nodes[node].kind {
+                Kind::TryCatch { on_halt: true } => self.catch(node)?,
+                Kind::ManualSelector { .. } => choices::halt_manual(self, node)?,
+                _ => {}
+            }
             self.forget(node);
             for at in 0..self.children(node).len() {
                 self.reset(self.child(node, at))?;
@@ -70,17 +76,12 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Halts the whole tree, as the library does: the root, then every node once more.
-    ///
-    /// # Errors
-    ///
-    /// Returns what a script afterwards throws; in a destructor this aborts the process.
-    pub fn halt_tree(&mut self) -> Result<(), Thrown> {
-        let thrown = |fault: Fault| Thrown { node: None, why: fault.0 };
-        self.halt(0).map_err(thrown)?;
-        for node in 0..self.tree.nodes.len() {
-            self.halt(node).map_err(thrown)?;
+    /// Halts the root, then every node once more.
+    pub(super) fn halt_all(&mut self) -> Stop {
+        let mut nodes = std::iter::once(0).chain(0..self.tree.nodes.len());
+        match nodes.try_for_each(|node| self.halt(node)) {
+            Ok(()) => Stop::Halted,
+            Err(fault) => self.thrown(None, fault),
         }
-        Ok(())
     }
 }

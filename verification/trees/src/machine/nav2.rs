@@ -1,6 +1,6 @@
 //! Control nodes of Nav2.
 
-use super::{Fault, Machine, Move, Status, fault};
+use super::{Fault, Machine, Move, Status, choices, fault};
 use crate::script::Value;
 use crate::tree::{Answer, Kind, Number};
 
@@ -42,6 +42,7 @@ pub(super) fn enter(m: &mut Machine, node: usize, kind: &Kind) -> Option<Step> {
             m.put_status(node, Status::Running);
             persistent_at(m, node, at, index)
         }
+        Kind::PauseResumeController => choices::enter_pausing(m, node),
         _ => return None,
     })
 }
@@ -66,6 +67,7 @@ pub(super) fn answered(
         Kind::RoundRobin { wraps } => round_robin(m, node, it, *wraps),
         Kind::NonblockingSequence => nonblocking(m, node, at, it),
         Kind::PersistentSequence { index } => persistent(m, node, at, it, index),
+        Kind::PauseResumeController => choices::pausing(m, node, it),
         _ => return None,
     })
 }

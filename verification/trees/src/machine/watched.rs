@@ -8,6 +8,8 @@ use std::collections::BTreeSet;
 pub(crate) struct Watched {
     /// Nodes whose last answer within the tick is asked for.
     pub(crate) nodes: BTreeSet<usize>,
+    /// Nodes whose status is asked for, also where it is left by an exception.
+    pub(crate) statuses: BTreeSet<usize>,
     /// The state of the supervisor is asked for.
     pub(crate) net: bool,
 }
@@ -15,7 +17,7 @@ pub(crate) struct Watched {
 impl Watched {
     /// Returns whether nothing is asked for.
     pub(crate) fn is_empty(&self) -> bool {
-        self.nodes.is_empty() && !self.net
+        self.nodes.is_empty() && self.statuses.is_empty() && !self.net
     }
 }
 
@@ -27,6 +29,7 @@ impl Machine<'_> {
             self.cells.push(0);
             self.layout.widths.push(3);
         }
+        self.kept.extend(&watched.statuses);
         if watched.net {
             self.watch_net();
         }

@@ -50,10 +50,33 @@ pub enum Reply {
     Rest,
     /// The supervisor makes one of its moves.
     Net(u8),
+    /// Somebody chooses the child at this place.
+    Child(u8),
 }
 
 /// Most moves of a supervisor.
-pub const MOST_MOVES: usize = 119;
+pub const MOST_MOVES: usize = 110;
+
+/// Most children among which somebody can choose.
+pub const MOST_CHOICES: usize = 9;
+
+/// Replies of somebody who chooses among so many children, or answers at once.
+pub(super) fn choices(count: usize) -> &'static [Reply] {
+    const ALL: [Reply; MOST_CHOICES + 3] = {
+        let ends = [Answer::Success, Answer::Failure, Answer::Running];
+        let mut all = [Reply::Child(0); MOST_CHOICES + 3];
+        let mut at = 0;
+        while at < all.len() {
+            all[at] = match at {
+                0..3 => Reply::Leaf(ends[at]),
+                _ => Reply::Child(at as u8 - 3),
+            };
+            at += 1;
+        }
+        all
+    };
+    &ALL[..3 + count.min(MOST_CHOICES)]
+}
 
 /// Replies of a supervisor that has so many moves.
 pub(super) fn moves(count: usize) -> &'static [Reply] {
@@ -78,6 +101,7 @@ impl Reply {
             Reply::No => 'N',
             Reply::Rest => '-',
             Reply::Net(_) => '+',
+            Reply::Child(it) => char::from_digit(it as u32 + 1, 10).unwrap_or('?'),
         }
     }
 
@@ -90,6 +114,7 @@ impl Reply {
             'K' => Reply::Leaf(Answer::Skipped),
             'T' => Reply::Yes,
             'N' => Reply::No,
+            '1'..='9' => Reply::Child(letter as u8 - b'1'),
             _ => return None,
         })
     }
@@ -195,6 +220,6 @@ pub enum Stop {
     Answered(Answer),
     /// An exception; the run is over.
     Thrown(Thrown),
-    /// The supervisor has halted the tree before a tick; the run is over.
+    /// The tree was halted: from outside, or by the supervisor before a tick, which ends the run.
     Halted,
 }

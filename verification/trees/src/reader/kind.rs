@@ -3,9 +3,9 @@
 use super::text::{pointer, port, script_of};
 use crate::diagnostic::{Findings, Place, Severity, nearest};
 use crate::kinds::LeafKind;
-use crate::script::{Value, number_of};
+use crate::machine::{MOST_CHOICES, item, items};
 use crate::signature::{self, Default, OLD_PORTS, PortSpec, PortType, Signature};
-use crate::tree::{Answer, Gate, Kind, Number, Port, Tree};
+use crate::tree::{Answer, EntryType, Gate, Kind, Number, Port, Queue, Tree};
 
 /// A node as it stands in the file.
 pub(super) struct Given<'e> {
@@ -202,6 +202,8 @@ impl<'e> Ports<'_, 'e> {
             "IfThenElse" => Kind::IfThenElse,
             "WhileDoElse" => Kind::WhileDoElse,
             "TryCatch" => self.try_catch(),
+            "ManualSelector" => self.menu(),
+            "PauseResumeController" => Kind::PauseResumeController,
             "PipelineSequence" => Kind::PipelineSequence,
             "RecoveryNode" => self.recovery(),
             "RoundRobin" => Kind::RoundRobin { wraps: self.flag("wrap_around") },
@@ -265,12 +267,7 @@ impl<'e> Ports<'_, 'e> {
             let message = "TryCatch has one child, and needs two or more".to_owned();
             self.refuse(self.given.place, message, "the last child is the one that catches");
         }
-        if self.flag("catch_on_halt") {
-            let place = self.given.get("catch_on_halt").map_or(self.given.place, |it| it.1);
-            let message = "catch_on_halt=\"true\" is not modelled".to_owned();
-            self.refuse(place, message, "leave it out to check the rest of the tree");
-        }
-        Kind::TryCatch
+        Kind::TryCatch { on_halt: self.flag("catch_on_halt") }
     }
 
     fn recovery(&mut self) -> Kind {
@@ -285,27 +282,39 @@ impl<'e> Ports<'_, 'e> {
         Kind::RecoveryNode { retries }
     }
 
+    fn menu(&mut self) -> Kind {
+        if self.given.children > MOST_CHOICES {
+            let message = format!("ManualSelector has {} children", self.given.children);
+            let help = format!("a choice among at most {MOST_CHOICES} is modelled");
+            self.refuse(self.given.place, message, &help);
+        }
+        Kind::ManualSelector { repeats: self.flag("repeat_last_selection") }
+    }
+
     fn queue(&mut self) -> Option<Kind> {
         let (text, place) = self.text("queue")?;
-        if let Port::Entry(_) = port("queue", text) {
-            let message = format!("{}: a queue on the blackboard is not modelled", self.given.tag);
-            self.refuse(place, message, "write the items as queue=\"1;2;3\" to check the tree");
-            return None;
-        }
-        let mut queue = Vec::new();
-        for item in text.split(';') {
-            let value = match self.given.tag {
-                "LoopString" => Some(Value::text(item)),
-                "LoopInt" => item.trim().parse().ok().map(Value::Integer),
-                _ => number_of(item).map(Value::Real),
-            };
-            let Some(value) = value else {
-                let message = format!("`{item}` in the queue of {} is no value", self.given.tag);
-                self.refuse(place, message, "");
-                return None;
-            };
-            queue.push(value);
-        }
+        let kind = match self.given.tag {
+            "LoopString" => EntryType::Text,
+            "LoopInt" => EntryType::Integer,
+            "LoopBool" => EntryType::Truth,
+            _ => EntryType::Real,
+        };
+        let queue = match port("queue", text) {
+            Port::Entry(key) => Queue::Entry(key, kind),
+            Port::Constant(text) => {
+                let mut queue = Vec::new();
+                for text in items(&text) {
+                    let Some(value) = item(text, kind) else {
+                        let tag = self.given.tag;
+                        let message = format!("`{text}` in the queue of {tag} is no value");
+                        self.refuse(place, message, "");
+                        return None;
+                    };
+                    queue.push(value);
+                }
+                Queue::Items(queue)
+            }
+        };
         let value = self.text("value").map(|it| it.0).filter(|it| !it.is_empty());
         let value = value.map(|_| self.entry("value"));
         Some(Kind::Loop { queue, value, if_empty: self.status("if_empty") })
@@ -323,6 +332,9 @@ pub(super) fn counts(tree: &Tree, findings: &mut Findings) {
             }
             Kind::RecoveryNode { .. } if found != 2 => {
                 format!("{tag} has {found} children, and needs 2")
+            }
+            Kind::PauseResumeController if found > 4 => {
+                format!("{tag} has {found} children, and takes at most 4")
             }
             Kind::Switch { cases, .. } if found != cases.len() + 1 => {
                 format!("{tag} has {found} children, and needs {}", cases.len() + 1)
