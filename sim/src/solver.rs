@@ -107,6 +107,8 @@ impl Solver {
             .filter_map(|(list, &index)| list.get(usize::from(index)))
             .collect();
         debug_assert_eq!(picked.len(), lists.len());
+        let total = |axis: usize| picked.iter().map(|it| u64::from(it.cost[axis])).sum::<u64>();
+        debug_assert!((0..2).all(|axis| total(axis) <= left.limits[axis]), "a plan keeps limits");
         Ok(Proposal {
             choice: picked.iter().map(|it| it.id).collect(),
             first_cost: picked.first().map_or([0; 2], |it| it.cost),

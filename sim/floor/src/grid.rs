@@ -217,16 +217,11 @@ impl Surface for Grid {
     }
 
     fn is_free(&self, footprint: &Footprint, pose: &Pose) -> bool {
-        let centre = Point::from(pose.translation.vector);
-        if self.clearance(centre, footprint.radius()) >= footprint.radius() {
-            return true;
-        }
         let mut corners = [Point::origin(); Footprint::MAX_CORNERS];
-        let corners = footprint.placed(pose, &mut corners);
-        let Some(around) = Bounds::around(corners) else { return false };
-        if !self.bounds().holds(around.least) || !self.bounds().holds(around.most) {
-            return false;
-        }
+        let (corners, around) = match footprint.near(self, pose, &mut corners) {
+            Ok(near) => near,
+            Err(is_free) => return is_free,
+        };
         let (low, high) = (self.in_cells(around.least), self.in_cells(around.most));
         for y in low.y as usize..=(high.y as usize).min(self.height - 1) {
             for x in low.x as usize..=(high.x as usize).min(self.width - 1) {

@@ -246,16 +246,11 @@ impl Surface for Segments {
     }
 
     fn is_free(&self, footprint: &Footprint, pose: &Pose) -> bool {
-        let centre = Point::from(pose.translation.vector);
-        if self.clearance(centre, footprint.radius()) >= footprint.radius() {
-            return true;
-        }
         let mut corners = [Point::origin(); Footprint::MAX_CORNERS];
-        let corners = footprint.placed(pose, &mut corners);
-        let Some(around) = Bounds::around(corners) else { return false };
-        if !self.bounds.holds(around.least) || !self.bounds.holds(around.most) {
-            return false;
-        }
+        let (corners, around) = match footprint.near(self, pose, &mut corners) {
+            Ok(near) => near,
+            Err(is_free) => return is_free,
+        };
         let is_in = |it: &Segment| {
             is_inside(corners, it.from)
                 || sides(corners).any(|(a, b)| do_cross([a, b], [it.from, it.to]))

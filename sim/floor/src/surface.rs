@@ -94,6 +94,31 @@ impl Footprint {
         }
         out.get(..self.corners.len()).unwrap_or_default()
     }
+
+    /// Returns the corners at a pose and the box around them.
+    ///
+    /// # Errors
+    /// Whether the pose is free, where the room around the centre or the border of the floor
+    /// decides that.
+    pub(crate) fn near<'o>(
+        &self,
+        floor: &impl Surface,
+        pose: &Pose,
+        out: &'o mut [Point; Self::MAX_CORNERS],
+    ) -> Result<(&'o [Point], Bounds), bool> {
+        let centre = Point::from(pose.translation.vector);
+        if floor.clearance(centre, self.radius) >= self.radius {
+            return Err(true);
+        }
+        let corners = self.placed(pose, out);
+        let around = Bounds::around(corners).ok_or(false)?;
+        let whole = floor.bounds();
+        if whole.holds(around.least) && whole.holds(around.most) {
+            Ok((corners, around))
+        } else {
+            Err(false)
+        }
+    }
 }
 
 /// A floor, drawn or mapped. People are not part of it.

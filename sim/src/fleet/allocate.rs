@@ -76,6 +76,16 @@ impl Tables {
     }
 }
 
+/// Whether no task and no robot is in two shares.
+fn is_disjoint(shares: &[Share]) -> bool {
+    let mut tasks: Vec<usize> = shares.iter().map(|it| it.task).collect();
+    let mut robots: Vec<usize> =
+        shares.iter().flat_map(|it| it.robots.iter().map(|it| it.robot)).collect();
+    tasks.sort_unstable();
+    robots.sort_unstable();
+    tasks.windows(2).all(|it| it[0] < it[1]) && robots.windows(2).all(|it| it[0] < it[1])
+}
+
 /// Memory for what is solved again and again.
 #[derive(Debug, Default)]
 pub(super) struct Allocator {
@@ -108,12 +118,16 @@ impl Allocator {
             let skip = Cost::new(skip as u32);
             listed.push(Task { skip, combine: spec.combine, plans });
         }
+        let Ok(team) = Team::new(tables.robots.len(), tables.denominator, &listed) else {
+            return Vec::new();
+        };
         let mut shares = match scenario.method {
-            Method::Optimal => self.optimal(scenario, tasks, &tables, &listed),
-            Method::Rounds => self.rounds(scenario, tasks, &tables, &listed),
+            Method::Optimal => self.optimal(scenario, tasks, &tables, &team),
+            Method::Rounds => self.rounds(scenario, tasks, &tables, &team),
             Method::OneByOne => self.one_by_one(scenario, tasks, &tables, &listed),
         };
         reliable::prefer(scenario, tables.denominator, bids, &mut shares);
+        debug_assert!(is_disjoint(&shares), "a task is given once, a robot has one task");
         shares
     }
 
@@ -123,13 +137,11 @@ impl Allocator {
         scenario: &Scenario,
         numbers: &[usize],
         tables: &Tables,
-        tasks: &[Task<'_>],
+        team: &Team<'_>,
     ) -> Vec<Share> {
-        let Ok(team) = Team::new(tables.robots.len(), tables.denominator, tasks) else {
-            return Vec::new();
-        };
-        let mut joint = self.workspace.winners(&team, 64 * tasks.len());
-        if joint.solve(&team, STEPS).is_err() {
+        let tasks = team.tasks();
+        let mut joint = self.workspace.winners(team, 64 * tasks.len());
+        if joint.solve(team, STEPS).is_err() {
             return Vec::new();
         }
         let mut shares = Vec::new();
@@ -156,11 +168,9 @@ impl Allocator {
         scenario: &Scenario,
         numbers: &[usize],
         tables: &Tables,
-        tasks: &[Task<'_>],
+        team: &Team<'_>,
     ) -> Vec<Share> {
-        let Ok(team) = Team::new(tables.robots.len(), tables.denominator, tasks) else {
-            return Vec::new();
-        };
+        let tasks = team.tasks();
         let rows = tasks.len() + 8;
         let columns = tables.robots.len() + tasks.len();
         self.entries.resize((rows * columns).max(self.entries.len()), None);
@@ -168,7 +178,7 @@ impl Allocator {
         let (mut states, mut entries) =
             (std::mem::take(&mut self.states), std::mem::take(&mut self.entries));
         let done = self.memory(rows, columns).and_then(|mut memory| {
-            thesis::greedy(&team, &mut states, &mut entries, &mut memory).ok()
+            thesis::greedy(team, &mut states, &mut entries, &mut memory).ok()
         });
         let mut shares = Vec::new();
         for (place, state) in states.iter().enumerate().filter(|_| done.is_some()) {

@@ -59,15 +59,8 @@ pub fn write(system: &System<'_>) -> String {
 }
 
 fn figure<'n>(boxes: &Net<'n>, system: &System<'_>) -> Figure<'n> {
-    let node = |(place, it): (usize, &cotama_core::net::Place<'n>)| Node {
-        kind: Kind::State(place),
-        name: it.name,
-        doc: it.doc,
-        label: None,
-        entries: Vec::new(),
-        also: Vec::new(),
-    };
-    let nodes: Vec<Node<'_>> = boxes.places.iter().enumerate().map(node).collect();
+    let places = boxes.places.iter().enumerate();
+    let nodes: Vec<Node<'n>> = places.map(|(at, it)| Node::of(Kind::State(at), it)).collect();
     let mut said = said(system);
     said.retain(|it| it.from < nodes.len() && it.to < nodes.len());
     said.sort_by_key(|it| (it.from, it.to, it.way));

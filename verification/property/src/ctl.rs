@@ -1,7 +1,7 @@
 //! The normal form of CTL.
 
 use super::Formula;
-use std::collections::HashMap;
+use super::nodes::Nodes;
 
 /// A formula of CTL as nodes that share what is equal. A node speaks of nodes before it only, so
 /// that one pass in their order finds where each of them holds.
@@ -46,7 +46,7 @@ impl Ctl {
     pub fn new(formula: &Formula) -> Option<Self> {
         let mut builder = Builder::default();
         let root = builder.add(formula)?;
-        Some(Self { nodes: builder.nodes, root })
+        Some(Self { nodes: builder.into_list(), root })
     }
 
     /// Returns the parts of the formula.
@@ -62,25 +62,11 @@ impl Ctl {
     }
 }
 
-#[derive(Default)]
-struct Builder {
-    nodes: Vec<CtlNode>,
-    positions: HashMap<CtlNode, u32>,
-}
+type Builder = Nodes<CtlNode>;
 
 impl Builder {
-    fn push(&mut self, node: CtlNode) -> u32 {
-        if let Some(&at) = self.positions.get(&node) {
-            return at;
-        }
-        let at = self.nodes.len() as u32;
-        self.positions.insert(node.clone(), at);
-        self.nodes.push(node);
-        at
-    }
-
     fn not(&mut self, inner: u32) -> u32 {
-        match &self.nodes[inner as usize] {
+        match self.at(inner) {
             CtlNode::Not(twice) => *twice,
             CtlNode::State(formula) => {
                 let negated = formula.clone().negated();

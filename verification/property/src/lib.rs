@@ -90,6 +90,7 @@ mod linear;
 mod ltl;
 pub mod mcc;
 mod names;
+mod nodes;
 mod operand;
 mod parser;
 pub mod pt;

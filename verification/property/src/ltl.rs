@@ -1,8 +1,8 @@
 //! The normal form of LTL.
 
+use super::nodes::Nodes;
 use super::{Assumptions, Atom, Formula};
 use cotama_core::net::TransitionId;
-use std::collections::HashMap;
 
 /// A formula about one run as nodes that share what is equal, with negations in what is said of one
 /// marking only. A node speaks of nodes before it only. Runs are infinite: the last marking before
@@ -88,7 +88,7 @@ impl Ltl {
             all.push(builder.often(holds));
         }
         let root = if all.len() == 1 { all[0] } else { builder.push(LtlNode::And(all)) };
-        Some(Self { nodes: builder.nodes, root })
+        Some(Self { nodes: builder.into_list(), root })
     }
 
     /// Returns the parts of the formula.
@@ -104,23 +104,9 @@ impl Ltl {
     }
 }
 
-#[derive(Default)]
-struct Builder {
-    nodes: Vec<LtlNode>,
-    positions: HashMap<LtlNode, u32>,
-}
+type Builder = Nodes<LtlNode>;
 
 impl Builder {
-    fn push(&mut self, node: LtlNode) -> u32 {
-        if let Some(&at) = self.positions.get(&node) {
-            return at;
-        }
-        let at = self.nodes.len() as u32;
-        self.positions.insert(node.clone(), at);
-        self.nodes.push(node);
-        at
-    }
-
     /// Adds the condition that a transition is disabled.
     fn disabled(&mut self, transition: TransitionId) -> u32 {
         let enabled = Formula::Atom(Atom::Fireable(vec![transition]));

@@ -258,16 +258,20 @@ impl<'a> File<'a> {
         Ok(all)
     }
 
-    /// The formula that an element is, up to its end.
-    fn formula(&mut self, element: &Element<'a>) -> Result<Formula, Fault> {
+    /// Goes one level deeper.
+    fn deeper(&mut self, element: &Element<'a>) -> Result<(), Fault> {
         if self.depth == MAX_DEPTH {
-            let fault = Fault::new(
-                element.span.clone(),
-                format!("formulas are nested more than {MAX_DEPTH} deep"),
-            );
+            let message = format!("formulas are nested more than {MAX_DEPTH} deep");
+            let fault = Fault::new(element.span.clone(), message);
             return Err(fault.help("the file is damaged or made to do harm"));
         }
         self.depth += 1;
+        Ok(())
+    }
+
+    /// The formula that an element is, up to its end.
+    fn formula(&mut self, element: &Element<'a>) -> Result<Formula, Fault> {
+        self.deeper(element)?;
         let formula = self.operator(element);
         self.depth -= 1;
         formula
@@ -386,14 +390,7 @@ impl<'a> File<'a> {
 
     /// The number that an element is, up to its end.
     fn number(&mut self, element: &Element<'a>) -> Result<Sum, Fault> {
-        if self.depth == MAX_DEPTH {
-            let fault = Fault::new(
-                element.span.clone(),
-                format!("formulas are nested more than {MAX_DEPTH} deep"),
-            );
-            return Err(fault.help("the file is damaged or made to do harm"));
-        }
-        self.depth += 1;
+        self.deeper(element)?;
         let number = match element.name {
             "integer-constant" => {
                 let (text, span) = self.xml.text()?;

@@ -16,6 +16,22 @@ macro_rules! __net_constants {
 }
 
 /// A number of a part of a net, one without a number.
+/// Names of events for the transitions of a net or a system, which is `SYSTEM` there.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __event_names {
+    () => {
+        impl $crate::player::EventNames for Transition {
+            fn event(
+                event: $crate::system::Of<$crate::net::EventId>,
+                f: &mut ::core::fmt::Formatter<'_>,
+            ) -> ::core::fmt::Result {
+                <Self as $crate::player::EventNames>::event_of(&SYSTEM, event, f)
+            }
+        }
+    };
+}
+
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __net_number {

@@ -158,6 +158,22 @@ pub struct Transition<'n> {
     pub priority: i16,
 }
 
+impl Transition<'_> {
+    /// A transition without a name that moves no token.
+    pub const NOTHING: Self = Transition {
+        name: "",
+        doc: "",
+        line: 0,
+        on: None,
+        take: &[],
+        read: &[],
+        give: &[],
+        emits: &[],
+        within: None,
+        priority: 0,
+    };
+}
+
 /// A number of tokens in a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Arc {

@@ -334,19 +334,7 @@ impl<
 
     /// Returns the transitions of the net.
     pub const fn transitions(&self) -> [Transition<'_>; TRANSITIONS] {
-        let empty = Transition {
-            name: "",
-            doc: "",
-            line: 0,
-            on: None,
-            take: &[],
-            read: &[],
-            give: &[],
-            emits: &[],
-            within: None,
-            priority: 0,
-        };
-        let mut transitions = [empty; TRANSITIONS];
+        let mut transitions = [Transition::NOTHING; TRANSITIONS];
         let mut at = 0;
         while at < TRANSITIONS {
             let row = self.rows[at];

@@ -332,14 +332,7 @@ macro_rules! net {
                 Transition { $( $line )* }
             }
 
-            impl $crate::player::EventNames for Transition {
-                fn event(
-                    event: $crate::system::Of<$crate::net::EventId>,
-                    f: &mut ::core::fmt::Formatter<'_>,
-                ) -> ::core::fmt::Result {
-                    <Self as $crate::player::EventNames>::event_of(&SYSTEM, event, f)
-                }
-            }
+            $crate::__event_names! {}
 
             /// The net as a player plays it; no bytes.
             #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -245,14 +245,7 @@ macro_rules! system {
                 Event Place Output Transition => { $( $component )* }
             }
 
-            impl $crate::player::EventNames for Transition {
-                fn event(
-                    event: $crate::system::Of<$crate::net::EventId>,
-                    f: &mut ::core::fmt::Formatter<'_>,
-                ) -> ::core::fmt::Result {
-                    <Self as $crate::player::EventNames>::event_of(&SYSTEM, event, f)
-                }
-            }
+            $crate::__event_names! {}
 
             /// The system as a player runs it; no bytes.
             #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -76,6 +76,8 @@ fn proved(pt: &Pt, limits: &Limits) -> Result<Vec<Option<u32>>, Limit> {
             };
         }
     }
+    let holds = |(bound, tokens): (&Option<u32>, &u32)| bound.is_none_or(|it| it >= *tokens);
+    debug_assert!(bounds.iter().zip(&pt.initial).all(holds), "the initial marking is within them");
     Ok(bounds)
 }
 
@@ -223,6 +225,9 @@ fn sums(pt: &Pt, known: &[Option<u32>], limits: &Limits) -> Result<Vec<Rc<Sum>>,
 impl Sums<'_> {
     fn keep(&mut self, sum: Sum) {
         let number = self.all.len() as u32;
+        debug_assert!(sum.weights.iter().all(|it| it.1 > 0), "sums have no negative weights");
+        debug_assert!(sum.weights.is_sorted_by_key(|it| it.0));
+        debug_assert!(sum.grows.is_sorted_by_key(|it| it.0));
         self.first[sum.weights[0].0 as usize].push(number);
         for &(transition, _) in &sum.grows {
             self.changed[transition as usize].push(number);

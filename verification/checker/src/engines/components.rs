@@ -26,8 +26,10 @@ pub(crate) fn components(nodes: usize, mut graph: impl Fn(u32, u32) -> Option<u3
     }
     let Search { ranks: mut of, count, .. } = search;
     for it in &mut of {
+        debug_assert!(*it != 0, "each node is met");
         *it = nodes as u32 - *it;
     }
+    debug_assert!(of.iter().all(|it| *it < count));
     Components { of, count }
 }
 

@@ -107,7 +107,7 @@ impl<'s> Flat<'s> {
                 }
                 if on.is_none() {
                     let ignored = self.ignored(&starts, component, id)?;
-                    self.add(ignored, &NOTHING, None)?;
+                    self.add(ignored, &Transition::NOTHING, None)?;
                 }
             }
         }
@@ -360,20 +360,6 @@ impl<'s> Flat<'s> {
         }
     }
 }
-
-/// A transition that ignores an event and does nothing else.
-const NOTHING: Transition<'static> = Transition {
-    name: "",
-    doc: "",
-    line: 0,
-    on: None,
-    take: &[],
-    read: &[],
-    give: &[],
-    emits: &[],
-    within: None,
-    priority: 0,
-};
 
 /// Whether the first of two conditions asks for at least what the second one does.
 fn implies(a: &BTreeMap<PlaceId, i64>, b: &BTreeMap<PlaceId, i64>) -> bool {

@@ -48,14 +48,7 @@ pub(super) fn figure<'n>(net: &Net<'n>) -> Option<Figure<'n>> {
     for (place, it) in net.places.iter().enumerate().filter(|it| is_drawn(it.0)) {
         node_of.insert(place, nodes.len());
         let kind = Kind::Place { place, shared: false };
-        nodes.push(Node {
-            kind,
-            name: it.name,
-            doc: it.doc,
-            label: None,
-            entries: Vec::new(),
-            also: Vec::new(),
-        });
+        nodes.push(Node::of(kind, it));
     }
     let mut edges = Vec::new();
     for bundle in bundles(net, &mirrors, &is_drawn) {

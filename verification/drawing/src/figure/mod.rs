@@ -9,7 +9,7 @@ mod states;
 
 pub(crate) use label::Label;
 
-use cotama_core::net::Net;
+use cotama_core::net::{Net, Place};
 
 /// How a net is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,6 +55,14 @@ pub(crate) struct Node<'n> {
     pub(crate) entries: Vec<Entry<'n>>,
     /// Further transitions with the same arrows that share this bar.
     pub(crate) also: Vec<(&'n str, Label<'n>)>,
+}
+
+impl<'n> Node<'n> {
+    /// Makes the node of a place, without transitions.
+    pub(crate) fn of(kind: Kind, place: &Place<'n>) -> Self {
+        let (name, doc) = (place.name, place.doc);
+        Self { kind, name, doc, label: None, entries: Vec::new(), also: Vec::new() }
+    }
 }
 
 impl Node<'_> {

@@ -11,14 +11,7 @@ pub(super) fn figure<'n>(net: &Net<'n>) -> Figure<'n> {
     for (place, it) in net.places.iter().enumerate().filter(|&(place, _)| !mirrors.hides(place)) {
         node_of[place] = Some(nodes.len());
         let kind = Kind::Place { place, shared: it.role == Role::Shared };
-        nodes.push(Node {
-            kind,
-            name: it.name,
-            doc: it.doc,
-            label: None,
-            entries: Vec::new(),
-            also: Vec::new(),
-        });
+        nodes.push(Node::of(kind, it));
     }
     let mut edges = Vec::new();
     for (at, it) in net.transitions.iter().enumerate() {

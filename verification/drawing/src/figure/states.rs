@@ -15,14 +15,7 @@ pub(super) fn figure<'n>(net: &Net<'n>) -> Option<Figure<'n>> {
     let mut node_of = BTreeMap::new();
     for (place, it) in net.places.iter().enumerate().filter(|(_, it)| it.role == Role::State) {
         node_of.insert(place, nodes.len());
-        nodes.push(Node {
-            kind: Kind::State(place),
-            name: it.name,
-            doc: it.doc,
-            label: None,
-            entries: Vec::new(),
-            also: Vec::new(),
-        });
+        nodes.push(Node::of(Kind::State(place), it));
     }
     let mut bundles: Vec<(u32, usize, Label<'n>, Vec<usize>)> = Vec::new();
     for (line, from, to, label) in arrows(net, &moves) {

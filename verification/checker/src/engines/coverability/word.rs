@@ -74,6 +74,7 @@ impl Pump {
 
     /// The limit of repeating it.
     pub(super) fn raise(&self, marking: &mut [Tokens]) {
+        debug_assert!(self.is_enabled(marking));
         for &(place, _) in self.effects.iter().filter(|it| it.1 > 0) {
             marking[place as usize] = Tokens::OMEGA;
         }
@@ -150,6 +151,7 @@ impl Pumps {
             i64::try_from(*need).ok()
         };
         for &(part, times) in word {
+            debug_assert!(!matches!(part, Part::Pump(it) if it as usize >= self.all.len()));
             let times = i64::try_from(times).ok().filter(|it| *it > 0)?;
             let owned: Vec<(u32, u64)>;
             let (part_needs, part_effects) = match part {
@@ -218,6 +220,7 @@ impl Pumps {
                 }
             }
         }
+        debug_assert_eq!(firings.len() as u128, length);
         Sequence { length, firings: Some(firings) }
     }
 }

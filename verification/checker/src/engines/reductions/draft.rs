@@ -177,6 +177,10 @@ impl Draft {
 
     /// Puts a transition at the position of one that was removed.
     pub(super) fn put(&mut self, at: u32, transition: Move) {
+        debug_assert!(self.moves[at as usize].is_none(), "its position is free");
+        debug_assert!(transition.needs.is_sorted_by_key(|it| it.0));
+        debug_assert!(transition.effects.is_sorted_by_key(|it| it.0));
+        debug_assert!(transition.needs.iter().all(|it| self.present[it.0 as usize]));
         for place in merged(&transition.needs, &transition.effects) {
             self.users[place as usize].insert(at);
         }
@@ -195,6 +199,7 @@ impl Draft {
 
     /// Takes a place away: nothing needs or changes it any more.
     pub(super) fn drop_place(&mut self, place: u32) {
+        debug_assert!(self.present[place as usize], "a place is dropped once");
         for at in std::mem::take(&mut self.users[place as usize]) {
             let Some(it) = &mut self.moves[at as usize] else { continue };
             self.arcs -= it.arcs();

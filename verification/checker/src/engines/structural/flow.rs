@@ -127,7 +127,19 @@ pub(super) fn basis(matrix: &Lists<i64>, width: u32, work: &mut Work) -> Result<
         }
     }
     flows.sort_unstable();
+    debug_assert!(flows.iter().all(|it| is_solution(matrix, it)));
     Ok(flows)
+}
+
+/// Whether the rows of a matrix, so often each, add up to zero.
+fn is_solution(matrix: &Lists<i64>, flow: &Flow) -> bool {
+    let mut sums: BTreeMap<u32, i128> = BTreeMap::new();
+    for &(row, weight) in flow {
+        for &(column, number) in matrix.of(row) {
+            *sums.entry(column).or_default() += i128::from(weight) * i128::from(number);
+        }
+    }
+    sums.values().all(|it| *it == 0)
 }
 
 fn semiflows(matrix: &Lists<i64>, width: u32, limit: usize) -> Semiflows {
@@ -180,6 +192,7 @@ fn semiflows(matrix: &Lists<i64>, width: u32, limit: usize) -> Semiflows {
     let is_flow = |it: &&Row| it.first().is_some_and(|it| it.0 >= width);
     let mut flows: Vec<_> = rows.iter().filter(is_flow).map(|it| flow(it, width)).collect();
     flows.sort_unstable();
+    debug_assert!(flows.iter().all(|it| is_solution(matrix, it) && it.iter().all(|it| it.1 > 0)));
     Semiflows { flows, complete }
 }
 

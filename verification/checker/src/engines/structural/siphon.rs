@@ -71,6 +71,14 @@ impl<'a> Graph<'a> {
                 }
             }
         }
+        debug_assert!(
+            (0..self.pt.transitions.len() as u32).all(|it| {
+                let takes = |it: &(u32, i64)| it.1 < 0 && places[it.0 as usize];
+                let effects = self.pt.effects.of(it);
+                !self.can_fire[it as usize] || !effects.iter().any(takes) || !needless(it, places)
+            }),
+            "what takes tokens from a trap leaves some in it"
+        );
     }
 
     /// The greatest siphon among these places: the places that are no part of it are taken out.

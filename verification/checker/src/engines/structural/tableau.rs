@@ -110,6 +110,7 @@ impl Tableau {
 
     /// Takes the row away that was added last, whose variable is still basic.
     pub(super) fn remove_last(&mut self) {
+        debug_assert_eq!(self.basic.last().map(|it| *it as usize + 1), Some(self.home.len()));
         if self.rows.pop().is_some() {
             self.masks.pop();
             self.basic.pop();
@@ -198,6 +199,8 @@ impl Tableau {
     }
 
     fn pivot(&mut self, row: usize, column: u32, work: &mut Work) -> Result<(), Limit> {
+        debug_assert!(at(&self.rows[row], column) != 0, "the variable is in the row");
+        debug_assert_eq!((self.rows.len(), self.rows.len()), (self.basic.len(), self.masks.len()));
         if at(&self.rows[row], column) < 0 {
             let negated = self.rows[row]
                 .iter()
@@ -222,6 +225,7 @@ impl Tableau {
         self.home[self.basic[row] as usize] = None;
         self.home[column as usize] = Some(row as u32);
         self.basic[row] = column;
+        debug_assert!(at(&self.rows[row], column) > 0, "a basic variable has a positive number");
         Ok(())
     }
 }

@@ -99,6 +99,7 @@ impl<'f> Automaton<'f> {
         valuation: u32,
         holds: &[u64],
     ) -> Result<&[Move], TooLarge> {
+        debug_assert!(self.atoms.len() <= 64 * holds.len(), "a bit for each part");
         if !self.moves.contains_key(&(state, valuation)) {
             let moves = self.worked_out(state, holds)?;
             self.moves.insert((state, valuation), moves);
@@ -111,6 +112,7 @@ impl<'f> Automaton<'f> {
             return state;
         }
         let state = self.states.len() as u32;
+        debug_assert!(set.is_sorted(), "a set is written in one way");
         self.states.push(set.clone());
         self.numbers.insert(set, state);
         state

@@ -64,6 +64,7 @@ impl<'g, S: Successors> BitSets<'g, S> {
     /// reached.
     fn backward(&mut self, goal: &BitSet, through: &BitSet) -> Result<Vec<u32>, Limit> {
         let graph = self.graph;
+        debug_assert_eq!((goal.len(), through.len()), (graph.states(), graph.states()));
         self.memory.take(4 * graph.states() as u64)?;
         if self.before.is_none() {
             self.memory.take(Predecessors::bytes(graph))?;
@@ -157,6 +158,7 @@ impl<S: Successors> StateSets for BitSets<'_, S> {
         (0..states as u32).filter(|it| sets.has(*it)).for_each(|it| goal.insert(it));
         drop(sets);
         self.memory.release(bytes);
+        debug_assert!(goal.ones().all(|it| region.has(it)), "fair runs stay in the region");
         let ranks = self.backward(&goal, region)?;
         self.memory.release(4 * states as u64);
         for (state, _) in (0..).zip(&ranks).filter(|it| *it.1 != u32::MAX) {
@@ -222,6 +224,7 @@ impl Predecessors {
         for at in 0..count {
             starts[at + 1] += starts[at];
         }
+        debug_assert_eq!(starts[count] as usize, graph.arcs(), "each arc goes to a state");
         let (mut ends, mut states) = (starts.clone(), vec![0; graph.arcs()]);
         for from in 0..count as u32 {
             for &to in graph.successors(from) {

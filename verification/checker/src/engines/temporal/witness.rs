@@ -161,6 +161,7 @@ impl<S: Successors> Path<'_, '_, '_, S> {
     }
 
     fn step(&mut self, arc: usize) {
+        debug_assert!(self.rest == Rest::Any, "a run that goes round takes no further step");
         self.has_run = true;
         self.fired.push(self.labelling.sets.graph.transitions(self.state)[arc]);
         self.state = self.labelling.sets.graph.successors(self.state)[arc];
@@ -168,6 +169,7 @@ impl<S: Successors> Path<'_, '_, '_, S> {
 
     /// A fair run through a region from here for ever.
     fn go_on(&mut self, region: &BitSet) {
+        debug_assert!(region.has(self.state), "the run is in the region");
         self.has_run = true;
         let sets = self.labelling.sets.fair_sets(region);
         let (stem, rest) = self.labelling.sets.fair.run(self.state, region, &sets);

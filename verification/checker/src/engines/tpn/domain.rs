@@ -8,6 +8,9 @@ use super::bound::Bound;
 use super::index::{Index, hash, room, taken};
 use super::markings::{ANEW, Rules};
 
+/// Matrices so large are looked at when invariants are checked; larger ones take too long.
+const LOOKED_AT: usize = 6;
+
 /// A matrix in work.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Domain {
@@ -82,6 +85,8 @@ impl Domain {
         bounds: &mut Vec<(Bound, Bound)>,
         after: &mut Self,
     ) {
+        debug_assert_eq!(kept.len(), enabled.len());
+        debug_assert!(first[fired] == Bound::ZERO, "it can fire first");
         bounds.clear();
         bounds.push((Bound::ZERO, Bound::ZERO));
         bounds.extend(kept.iter().zip(enabled).map(|(&before, &transition)| {
@@ -101,6 +106,18 @@ impl Domain {
                 }
             }
         }
+        debug_assert!(after.size > LOOKED_AT || after.is_tight());
+    }
+
+    /// Whether there are such times, and no bound can be tighter.
+    fn is_tight(&self) -> bool {
+        let rows = || 0..self.size;
+        rows().all(|row| self.at(row, row) == Bound::ZERO)
+            && rows().all(|row| {
+                rows().all(|to| {
+                    rows().all(|by| self.at(row, to) <= self.at(row, by).plus(self.at(by, to)))
+                })
+            })
     }
 }
 
@@ -197,6 +214,7 @@ impl Domains {
             Entries::Middle(all) => into.entries.extend(all[range].iter().map(|&it| bound(it))),
             Entries::Long(all) => into.entries.extend(all[range].iter().map(|&it| bound(it))),
         }
+        debug_assert_eq!(into.entries.len(), into.size * into.size);
     }
 
     pub(super) fn bytes(&self) -> usize {
@@ -215,6 +233,7 @@ fn same<T: Stored>(entries: &[T], domain: &Domain) -> bool {
 }
 
 fn push<T: Stored>(entries: &mut Vec<T>, domain: &Domain) -> usize {
+    debug_assert!(domain.entries.iter().all(|&it| bound(stored::<T>(it)) == it), "none is cut");
     room(entries, domain.entries.len());
     entries.extend(domain.entries.iter().map(|&it| stored::<T>(it)));
     entries.len()

@@ -42,6 +42,7 @@ impl Zone {
 
     /// The values whose difference has this bound as well; `None` when there is none.
     pub(super) fn with(mut self, row: usize, column: usize, bound: Bound) -> Option<Self> {
+        debug_assert!(row < self.size && column < self.size);
         if bound >= self.at(row, column) {
             return Some(self);
         }
@@ -138,6 +139,7 @@ impl Zone {
             Some(position) => position as usize + 1,
         };
         let size = kept.len() + 1;
+        debug_assert!((1..size).all(|it| before(it) < self.size), "a clock that was there is kept");
         let entry = |at: usize| self.at(before(at / size), before(at % size));
         Self { size, entries: (0..size * size).map(entry).collect() }
     }
@@ -154,6 +156,7 @@ impl Zone {
         let mut after = vec![None; size];
         after[0] = Some(0);
         for (at, &position) in (1..).zip(kept).filter(|it| *it.1 != ANEW) {
+            debug_assert!(after[position as usize + 1].is_none(), "a clock is kept once");
             after[position as usize + 1] = Some(at);
         }
         let mut zone = Self { size, entries: vec![Bound::INFINITE; size * size] };
