@@ -2,6 +2,7 @@
 
 use crate::explore::{Assumptions, End, Facts, Limits, Pair, Run, Space};
 use crate::kinds::LeafKind;
+use crate::machine::catches;
 use crate::supervisor::Part;
 use crate::tree::{Answer, Kind, Number, Tree};
 
@@ -384,8 +385,14 @@ fn halting(space: &mut Space) -> Option<Finding> {
         level: Level::Error,
         nodes: Vec::new(),
         message: format!("halting the tree throws: {why}"),
-        help: "haltTree and the destructor run every _onHalted, of nodes that never ran too; \
-               thrown in the destructor it aborts the process: create the entry first, with :=",
+        help: if catches(space.tree) {
+            "haltTree and the destructor run every _onHalted, and what a TryCatch with \
+             catch_on_halt=\"true\" ticks then; thrown in the destructor it aborts the process: \
+             create the entry first, with :="
+        } else {
+            "haltTree and the destructor run every _onHalted, of nodes that never ran too; \
+               thrown in the destructor it aborts the process: create the entry first, with :="
+        },
         run: Some(run),
     })
 }

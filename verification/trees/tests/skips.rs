@@ -1,8 +1,9 @@
 //! Memories when a leaf skips, or a run has ended before: traces show them not. Rows as the second
 //! program has them.
 
-use cotama_trees::machine::{Machine, Reply, Stop};
+use cotama_trees::machine::{Machine, Reply, Status, Stop};
 use cotama_trees::reader::read_text;
+use cotama_trees::tree::Answer;
 
 /// Ticks a tree with letters for replies; returns what each tick asked, answered and left.
 fn played(inner: &str, ticks: &[&str]) -> Vec<String> {
@@ -68,4 +69,115 @@ fn a_rate_runs_until_its_period_is_over() {
                  </NonblockingSequence>";
     let said = played_every(Some(30), inner, &["SR", "R", "R", "R", "SR"]);
     assert_eq!(said, ["C1:S A2:R R", "A2~R R", "A2~R R", "A2~R R", "C1:S A2~R R"]);
+}
+
+#[test]
+fn a_try_that_has_caught_catches_anew() {
+    let said = played("<TryCatch><A1/><A2/></TryCatch>", &["FS", "FF"]);
+    assert_eq!(said, ["A1:F A2:S F", "A1:F A2:F F"]);
+    // Nor does it leave the child that caught as it was.
+    let text = "<root BTCPP_format=\"4\"><BehaviorTree ID=\"T\"><TryCatch><A1/><A2/></TryCatch>\
+                </BehaviorTree></root>";
+    let tree = read_text(text).unwrap().tree;
+    let mut machine = Machine::new(&tree);
+    machine.tick();
+    machine.reply(Reply::Leaf(Answer::Failure));
+    machine.reply(Reply::Leaf(Answer::Success));
+    assert_eq!([1, 2].map(|it| machine.status(it)), [Status::Idle; 2]);
+}
+
+#[test]
+fn a_gate_that_stays_closed_runs() {
+    let inner = "<NonblockingSequence><DistanceController><C1/></DistanceController><A2/>\
+                 </NonblockingSequence>";
+    let said = played(inner, &["SR", "NR", "TF"]);
+    let wanted = ["C1:S A2:R R", "DistanceController?N A2~R R", "DistanceController?T C1:F A2! F"];
+    assert_eq!(said, wanted);
+    let longer = "<Sequence><PathLongerOnApproach><A1/></PathLongerOnApproach><A2/></Sequence>";
+    assert_eq!(played(longer, &["R"]), ["A2:R R"]);
+}
+
+#[test]
+fn a_switch_halts_the_case_that_is_so_no_more() {
+    let inner = "<Sequence><Script code=\"x := 0\"/><ReactiveSequence><Script code=\"x += 1\"/>\
+        <Switch2 variable=\"{x}\" case_1=\"1\" case_2=\"2\"><A1/><A2/><A3/></Switch2>\
+        </ReactiveSequence></Sequence>";
+    let said = played(inner, &["R", "R", "R", "R"]);
+    assert_eq!(said, ["A1:R R x=1", "A1! A2:R R x=2", "A2! A3:R R x=3", "A3~R R x=4"]);
+}
+
+#[test]
+fn a_switch_says_how_many_children_it_needs() {
+    let text = "<root BTCPP_format=\"4\"><BehaviorTree ID=\"T\"><Switch2><A1/><A2/></Switch2>\
+                </BehaviorTree></root>";
+    let tree = read_text(text).unwrap().tree;
+    let Stop::Thrown(thrown) = Machine::new(&tree).tick() else { panic!("it throws") };
+    assert_eq!((thrown.node, thrown.why.as_str()), (Some(0), "Switch2 needs 3 children"));
+}
+
+#[test]
+fn a_loop_without_rounds_ends_at_once() {
+    let none = "<RetryUntilSuccessful num_attempts=\"0\"><A1/></RetryUntilSuccessful>";
+    assert_eq!(played(none, &[""]), [" F"]);
+    assert_eq!(played("<Repeat num_cycles=\"0\"><A1/></Repeat>", &[""]), [" S"]);
+}
+
+#[test]
+fn an_exception_leaves_what_runs_above_it_running() {
+    let status = |open: &str, more: &str| {
+        let tag = open.split(' ').next().unwrap();
+        let text = format!(
+            "<root BTCPP_format=\"4\"><BehaviorTree ID=\"T\"><{open}><Script code=\"y = 1\"/>{more}\
+             </{tag}></BehaviorTree></root>"
+        );
+        let tree = read_text(&text).unwrap_or_else(|it| panic!("{it}")).tree;
+        let mut machine = Machine::new(&tree);
+        let mut stop = machine.tick();
+        if let Stop::Asked(_) = stop {
+            stop = machine.reply(Reply::Yes);
+        }
+        assert!(matches!(stop, Stop::Thrown(_)), "{tag}: {stop:?}");
+        machine.status(0)
+    };
+    let running = [
+        "Sequence",
+        "Fallback",
+        "AsyncSequence",
+        "SequenceWithMemory",
+        "ReactiveSequence",
+        "ReactiveFallback",
+        "Parallel",
+        "ParallelAll",
+        "IfThenElse",
+        "WhileDoElse",
+        "TryCatch",
+        "RecoveryNode",
+        "RoundRobin",
+        "PauseResumeController",
+    ];
+    for open in running {
+        assert_eq!(status(open, "<A1/>"), Status::Running, "{open}");
+    }
+    for open in ["PipelineSequence", "NonblockingSequence"] {
+        assert_eq!(status(open, "<A1/>"), Status::Idle, "{open}");
+    }
+    let running = [
+        "Inverter",
+        "ForceSuccess",
+        "ForceFailure",
+        "KeepRunningUntilFailure",
+        "Repeat num_cycles=\"2\"",
+        "RetryUntilSuccessful num_attempts=\"2\"",
+        "Timeout msec=\"9\"",
+        "RunOnce",
+        "LoopInt queue=\"1\"",
+        "LoopInt queue=\"{q}\"",
+        "RateController",
+        "SingleTrigger",
+    ];
+    for open in running {
+        assert_eq!(status(open, ""), Status::Running, "{open}");
+    }
+    assert_eq!(status("Precondition if=\"true\"", ""), Status::Idle);
+    assert_eq!(status("GoalUpdater", ""), Status::Idle);
 }

@@ -151,16 +151,16 @@ fn runs_of_a_try_that_cleans_up_are_found_merged_and_bounded() {
 
 #[test]
 fn a_text_on_the_blackboard_is_a_queue_that_is_used_up_for_good() {
-    let inner = "<Sequence><Script code=\"q := '7;8'\"/><LoopInt queue=\"{q}\" value=\"{v}\">\
+    let inner = "<Sequence><Script code=\"q := '7;8;'\"/><LoopInt queue=\"{q}\" value=\"{v}\">\
                  <A1/></LoopInt></Sequence>";
     let said = played(inner, &["R", "S", "R", "!", "", ""]);
     let wanted = [
-        "A1:R R q='7;8';v=7",
-        "A1~S R q='7;8';v=7",
-        "A1:R R q='7;8';v=8",
-        "A1! H q='7;8';v=8",
-        "- S q='7;8';v=8",
-        "- S q='7;8';v=8",
+        "A1:R R q='7;8;';v=7",
+        "A1~S R q='7;8;';v=7",
+        "A1:R R q='7;8;';v=8",
+        "A1! H q='7;8;';v=8",
+        "- S q='7;8;';v=8",
+        "- S q='7;8;';v=8",
     ];
     assert_eq!(said, wanted);
     let wrong = "<Sequence><Script code=\"q := '7;b'\"/><LoopInt queue=\"{q}\"><A1/></LoopInt>\
@@ -252,13 +252,15 @@ fn a_controller_pauses_and_resumes_through_its_four_children() {
 
 #[test]
 fn a_controller_can_be_paused_anew_at_once_and_fails_with_any_child() {
-    let said = played(PAUSES, &["NS", "NR", "TNS", "NF", "!"]);
+    let said = played(PAUSES, &["NS", "NR", "TNS", "NF", "TR", "!"]);
     let wanted = [
         "PauseResumeController?N A3:S R",
         "PauseResumeController?N A2:R R",
         "PauseResumeController?T PauseResumeController?N A2! A3:S R",
         "PauseResumeController?N A2:F F",
-        "- H",
+        // It begins anew, resumed.
+        "PauseResumeController?T A1:R R",
+        "A1! H",
     ];
     assert_eq!(said, wanted);
     let two = "<PauseResumeController><A1/><C2/></PauseResumeController>";

@@ -4,7 +4,7 @@
 //! goes back to where the way to this question began, keeps the replies that were given since, and
 //! does all of it again with one reply more: what it did before, it does again.
 
-use super::{Cursor, Event, Fault, How, Machine, Question, Reply, Status, Stop, controls, words};
+use super::{Cursor, Event, Fault, How, Machine, Question, Reply, Stop, controls, words};
 use crate::tree::{Kind, Tree};
 use std::collections::{BTreeMap, VecDeque};
 
@@ -176,7 +176,8 @@ impl Machine<'_> {
             Stop::Asked(_) => return Err(Fault("halting asks".to_owned())),
             Stop::Answered(_) | Stop::Halted => {}
         }
-        if self.status(last) == Status::Running { self.reset(last) } else { Ok(()) }
+        // What runs then is halted with all children of the node.
+        Ok(())
     }
 
     /// Returns an exception, and the node that is named.
