@@ -5,6 +5,7 @@
 //! a tick with a thousand ways through it costs what its questions cost. One run begins with a
 //! fresh tree and goes to the first answer of the root other than RUNNING.
 
+mod arrivals;
 mod assume;
 mod condition;
 mod cycles;
@@ -18,13 +19,14 @@ mod property;
 mod runs;
 mod unwritten;
 
-use crate::machine::{Event, How, Machine, Question, Reply, Status, Stop, Vain, Watched};
+use crate::machine::{Event, How, Machine, Question, Reply, Status, Vain, Watched};
 use crate::supervisor::Part;
 use crate::tree::{Answer, Tree};
+use arrivals::Arrivals;
 pub use assume::{Assumption, Assumptions, parse_assumption};
 pub use condition::Condition;
 pub use facts::{Early, Facts, InVain, Pair};
-use graph::{Edge, MAX_SEQUENCES, WAKES, What, code};
+use graph::{Edge, MAX_SEQUENCES, What};
 pub use graph::{End, Point};
 use keys::{Keys, MAX_KEYS, Sequences};
 use pack::Pack;
@@ -91,6 +93,8 @@ pub struct Space<'t> {
     /// Actions, and which pairs of them were seen, to run and to start.
     actions: Vec<usize>,
     met: Vec<[bool; 2]>,
+    /// Edges of a point whose targets are not looked up yet.
+    arrivals: Arrivals,
 }
 
 impl<'t> Space<'t> {
@@ -142,6 +146,7 @@ impl<'t> Space<'t> {
             ends: Vec::new(),
             met: vec![[false; 2]; actions.len() * actions.len()],
             actions,
+            arrivals: Arrivals::default(),
         };
         space.run(limits);
         space
@@ -216,7 +221,7 @@ impl<'t> Space<'t> {
     fn run(&mut self, limits: Limits) {
         self.machine.at = None;
         self.pack.store(&mut self.machine, 0);
-        self.add(0, (0, 0), 0);
+        self.begin();
         let mut waiting = VecDeque::from([0_u32]);
         let mut work = VecDeque::new();
         let mut base = Vec::new();
@@ -266,7 +271,8 @@ impl<'t> Space<'t> {
             self.machine.events.clear();
             let stop = self.machine.tick();
             self.bound_written();
-            return self.arrive(point, None, stop, waiting, work);
+            self.arrive(point, None, stop);
+            return self.settle(point, waiting, work);
         };
         base.clone_from(&self.machine.cells);
         let (entries, wake) = (self.machine.entries.clone(), self.machine.wake);
@@ -291,8 +297,9 @@ impl<'t> Space<'t> {
             }
             let stop = self.machine.reply(reply);
             self.bound_written();
-            self.arrive(point, Some(reply), stop, waiting, work);
+            self.arrive(point, Some(reply), stop);
         }
+        self.settle(point, waiting, work);
     }
 
     /// Notes what leaves have written that act on the supervisor, and are not asked.
@@ -305,91 +312,6 @@ impl<'t> Space<'t> {
                 self.assumptions.written(node as usize, &mut self.machine.cells);
             }
         }
-    }
-
-    /// Adds the edge to where a tick has stopped, and looks at what is new there.
-    fn arrive(
-        &mut self,
-        from: usize,
-        reply: Option<Reply>,
-        stop: Stop,
-        waiting: &mut VecDeque<u32>,
-        work: &mut VecDeque<u32>,
-    ) {
-        let asks = self.asks();
-        let ticks = self.level[from] + 1;
-        let (what, level) = match &stop {
-            Stop::Asked(question) => (question.node as u32 + 1, ticks - 1),
-            Stop::Answered(Answer::Running) => (0, ticks),
-            Stop::Answered(Answer::Success) => (asks + 1, ticks),
-            Stop::Answered(Answer::Failure) => (asks + 2, ticks),
-            Stop::Answered(Answer::Skipped) => (asks + 3, ticks),
-            Stop::Halted => (asks + 5 + self.tree.nodes.len() as u32, ticks),
-            Stop::Thrown(thrown) => (asks + 4 + thrown.node.map_or(0, |it| it as u32 + 1), ticks),
-        };
-        let wakes = what == 0 && self.machine.wake;
-        let seen = Seen { ticks, node: from as u32, edge: self.edges.len() as u32 };
-        for (child, node) in std::mem::take(&mut self.machine.lost) {
-            self.lost.entry((child as usize, node as usize)).or_insert(seen);
-        }
-        for it in std::mem::take(&mut self.machine.refused) {
-            self.refused.entry((it.node, it.part)).or_insert((it, seen));
-        }
-        for (node, other) in std::mem::take(&mut self.machine.begun) {
-            self.overlap.entry((node as usize, other as usize)).or_insert(seen);
-        }
-        let events = self.sequences.number(&self.machine.events);
-        // Ends are few, and met by a third of all edges.
-        let end = (what > asks).then(|| (what - asks) as usize);
-        let known = end.and_then(|it| self.ends.get(it).copied().flatten());
-        let (target, new) = if let Some(known) = known {
-            (known, false)
-        } else {
-            if what > asks {
-                self.pack.leave(&mut self.machine);
-            }
-            let wake = what != 0 && what <= asks && self.machine.wake;
-            self.machine.wake = wake;
-            self.pack.store(&mut self.machine, what);
-            let via = (from as u32, self.edges.len() as u32);
-            self.add(what, via, level)
-        };
-        if let (Some(end), true, false) = (end, new, self.pack.watches) {
-            self.ends.resize(self.ends.len().max(end + 1), None);
-            self.ends[end] = Some(target);
-        }
-        let rest = events << 8 | code(reply) | if wakes { WAKES } else { 0 };
-        self.edges.push(Edge { target, rest });
-        self.count[from] += 1;
-        if !new {
-            return;
-        }
-        match stop {
-            Stop::Asked(question) => {
-                work.push_back(target);
-                self.look_at_question(question, seen);
-            }
-            Stop::Answered(Answer::Running) => {
-                waiting.push_back(target);
-                self.look_at_state(seen);
-            }
-            Stop::Answered(_) | Stop::Halted => {}
-            Stop::Thrown(thrown) => {
-                self.causes.entry(End::Thrown(thrown.node)).or_insert(thrown.why);
-            }
-        }
-    }
-
-    fn add(&mut self, what: u32, via: (u32, u32), level: u32) -> (u32, bool) {
-        let (point, new) = self.keys.insert(&self.pack.key);
-        if new {
-            self.what.push(what);
-            self.level.push(level);
-            self.via.push(via);
-            self.first.push(0);
-            self.count.push(0);
-        }
-        (point, new)
     }
 
     pub(crate) fn running(&self) -> impl Iterator<Item = usize> + '_ {

@@ -91,6 +91,14 @@ impl Keys {
         self.get(number as usize).iter().zip(key).all(|it| it.0 == it.1)
     }
 
+    /// Reads the places of keys that are looked up next, so that all are waited for at once.
+    pub(crate) fn expect(&self, keys: &[u64]) {
+        let mask = self.table.len() - 1;
+        let places = keys.chunks_exact(self.words.max(1)).map(Keys::hash);
+        let sum = places.fold(0, |sum, it| sum ^ self.table[it as usize & mask]);
+        std::hint::black_box(sum);
+    }
+
     /// Returns the number of a key, and whether it is new.
     pub(crate) fn insert(&mut self, key: &[u64]) -> (u32, bool) {
         if self.len * 2 >= self.table.len() {
