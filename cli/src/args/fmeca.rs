@@ -16,7 +16,7 @@ ranks. The tables: docs/dependability.md.
 Examples:
   $ cotama fmeca
   $ cotama fmeca --diagnosability
-  $ cotama fmeca --measure delivery --seeds 5               # detected by signals, in the plane
+  $ cotama fmeca --measure delivery --seeds 1               # detected by signals, in the plane
   $ cotama fmeca --measure delivery --output measured.toml
   $ cotama fmeca --measured p3dx-delivery                   # RPN and AP by runs, beside the assumed
   $ cotama fmeca --measured p3dx-delivery --detections      # the runs again, as a table

@@ -288,7 +288,7 @@ fn next(args: &RunArgs, answer: &TeamAnswer) -> String {
         return format!("cotama replay {}", quoted(trace));
     }
     match args.mission.mission.as_str() {
-        "fleet" => "cotama run fleet --seeds 20".to_owned(),
+        "fleet" => "cotama run fleet --seeds 5".to_owned(),
         "service" if answer.loss_permille == 0 => "cotama run service --loss 10".to_owned(),
         "service" => "cotama run fleet".to_owned(),
         file => format!("cotama run {} --trace team.jsonl", quoted(file)),
