@@ -12,7 +12,7 @@
 //! ```
 
 use cotama_models::missions::MissionErrors;
-use cotama_models::reading::{Diagnostic, Sink, errors};
+use cotama_models::reading::{Diagnostic, Sink, errors, quoted};
 use saphyr_parser::{Event, Parser, ScalarStyle, Span};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -36,6 +36,21 @@ pub struct Node {
     pub span: Range<usize>,
     /// The value itself.
     pub value: Value,
+}
+
+impl Node {
+    /// Reports that the value of a key must be something else.
+    pub fn wrong(&self, key: &str, expected: &str, help: &str, sink: &Sink) {
+        let found = match &self.value {
+            Value::Text(text) => quoted(text),
+            Value::Nothing => "nothing".into(),
+            Value::List(items) => format!("a list of {}", items.len()),
+            Value::Map(_) => "a mapping".into(),
+        };
+        let message = format!("`{key}` must be {expected}, not {found}");
+        let it = Diagnostic::new(self.span.clone(), message, format!("expected {expected}"));
+        sink.report(it.help(help));
+    }
 }
 
 /// A value of YAML.

@@ -426,18 +426,23 @@ impl Formula {
 
     /// Whether this holds of some part of it.
     pub fn any(&self, holds: &impl Fn(&Self) -> bool) -> bool {
-        holds(self)
-            || match self {
-                Self::Atom(_) => false,
-                Self::And(all) | Self::Or(all) => all.iter().any(|it| it.any(holds)),
-                Self::Until(a, b) => a.any(holds) || b.any(holds),
-                Self::Not(a)
-                | Self::Exists(a)
-                | Self::All(a)
-                | Self::Next(a)
-                | Self::Finally(a)
-                | Self::Globally(a)
-                | Self::Within(_, a) => a.any(holds),
-            }
+        holds(self) || self.parts().any(|it| it.any(holds))
+    }
+
+    /// Returns the formulas that it is made of.
+    fn parts(&self) -> impl Iterator<Item = &Self> {
+        let (list, some): (&[Self], [Option<&Self>; 2]) = match self {
+            Self::Atom(_) => (&[], [None, None]),
+            Self::And(all) | Self::Or(all) => (all, [None, None]),
+            Self::Until(a, b) => (&[], [Some(a), Some(b)]),
+            Self::Not(a)
+            | Self::Exists(a)
+            | Self::All(a)
+            | Self::Next(a)
+            | Self::Finally(a)
+            | Self::Globally(a)
+            | Self::Within(_, a) => (&[], [Some(a), None]),
+        };
+        list.iter().chain(some.into_iter().flatten())
     }
 }

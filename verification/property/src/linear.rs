@@ -117,24 +117,13 @@ impl Formula {
     /// Both or neither; `None` when that is too long to write. `budget` is how many parts may still
     /// be added.
     pub(super) fn equivalence(a: Self, b: Self, budget: &mut usize) -> Option<Self> {
-        *budget = budget.checked_sub(a.parts() + b.parts())?;
+        *budget = budget.checked_sub(a.length() + b.length())?;
         let neither =
             Self::And(vec![Self::Not(Box::new(a.clone())), Self::Not(Box::new(b.clone()))]);
         Some(Self::Or(vec![Self::And(vec![a, b]), neither]))
     }
 
-    fn parts(&self) -> usize {
-        1 + match self {
-            Self::Atom(_) => 0,
-            Self::And(all) | Self::Or(all) => all.iter().map(Self::parts).sum(),
-            Self::Until(a, b) => a.parts() + b.parts(),
-            Self::Not(a)
-            | Self::Exists(a)
-            | Self::All(a)
-            | Self::Next(a)
-            | Self::Finally(a)
-            | Self::Globally(a)
-            | Self::Within(_, a) => a.parts(),
-        }
+    fn length(&self) -> usize {
+        1 + self.parts().map(Self::length).sum::<usize>()
     }
 }

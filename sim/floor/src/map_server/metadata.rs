@@ -161,15 +161,7 @@ impl<'t> Keys<'t> {
     }
 
     fn wrong(&self, node: &Node, key: &str, expected: &str, help: &str) {
-        let found = match &node.value {
-            Value::Text(text) => quoted(text),
-            Value::Nothing => "nothing".into(),
-            Value::List(items) => format!("a list of {}", items.len()),
-            Value::Map(_) => "a mapping".into(),
-        };
-        let message = format!("`{key}` must be {expected}, not {found}");
-        let it = Diagnostic::new(node.span.clone(), message, format!("expected {expected}"));
-        self.sink.report(it.help(help));
+        node.wrong(key, expected, help, self.sink);
     }
 
     fn text(&mut self, key: &'static str) -> Option<String> {

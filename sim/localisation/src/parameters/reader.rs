@@ -123,7 +123,7 @@ fn read(
                 }
                 "robot_model_type" => motion(value, sink),
                 "do_beamskip" if truth_of(name, value, sink) == Some(true) => {
-                    wrong(value, name, "false", "beams are not skipped here", sink);
+                    value.wrong(name, "false", "beams are not skipped here", sink);
                 }
                 "do_beamskip" => {}
                 "set_initial_pose" => is_set = truth_of(name, value, sink).unwrap_or(false),
@@ -150,18 +150,6 @@ fn stray(name: &str, key: &Node, sink: &Sink) {
     sink.report(Diagnostic::new(key.span.clone(), message, "not known").help(help));
 }
 
-fn wrong(node: &Node, key: &str, expected: &str, help: &str, sink: &Sink) {
-    let found = match &node.value {
-        Value::Text(text) => quoted(text),
-        Value::Nothing => "nothing".into(),
-        Value::List(items) => format!("a list of {}", items.len()),
-        Value::Map(_) => "a mapping".into(),
-    };
-    let message = format!("`{key}` must be {expected}, not {found}");
-    let it = Diagnostic::new(node.span.clone(), message, format!("expected {expected}"));
-    sink.report(it.help(help));
-}
-
 fn in_range(key: &Key, node: &Node, sink: &Sink) -> Option<f64> {
     let [least, most] = key.range;
     let found = if let Value::Text(text) = &node.value { number(text) } else { None };
@@ -170,7 +158,7 @@ fn in_range(key: &Key, node: &Node, sink: &Sink) -> Option<f64> {
     if found.is_none() {
         let kind = if key.is_whole { "a whole number" } else { "a number" };
         let help = "Nav2's default is a good begin: leave the line out";
-        wrong(node, key.name, &format!("{kind} from {least} to {most}"), help, sink);
+        node.wrong(key.name, &format!("{kind} from {least} to {most}"), help, sink);
     }
     found
 }
@@ -178,7 +166,7 @@ fn in_range(key: &Key, node: &Node, sink: &Sink) -> Option<f64> {
 fn truth_of(key: &str, node: &Node, sink: &Sink) -> Option<bool> {
     let found = if let Value::Text(text) = &node.value { truth(text) } else { None };
     if found.is_none() {
-        wrong(node, key, "true or false", "write `true` or `false`", sink);
+        node.wrong(key, "true or false", "write `true` or `false`", sink);
     }
     found
 }
@@ -186,7 +174,7 @@ fn truth_of(key: &str, node: &Node, sink: &Sink) -> Option<bool> {
 fn model(node: &Node, sink: &Sink) -> Option<Model> {
     let names = Model::ALL.map(|it| it.0);
     let Value::Text(text) = &node.value else {
-        wrong(node, "laser_model_type", "a word", "write `likelihood_field`", sink);
+        node.wrong("laser_model_type", "a word", "write `likelihood_field`", sink);
         return None;
     };
     let found = Model::ALL.iter().find(|it| it.0 == text).map(|it| it.1);
@@ -202,7 +190,7 @@ fn motion(node: &Node, sink: &Sink) {
         if text == "differential" || text == "nav2_amcl::DifferentialMotionModel");
     if !is_known {
         let help = "all robots here have two driven wheels";
-        wrong(node, "robot_model_type", "nav2_amcl::DifferentialMotionModel", help, sink);
+        node.wrong("robot_model_type", "nav2_amcl::DifferentialMotionModel", help, sink);
     }
 }
 
@@ -219,7 +207,7 @@ fn initial_pose(tree: &Tree, node: &Node, sink: &Sink) -> Option<Pose> {
         let read = if let Value::Text(text) = &value.value { number(text) } else { None };
         match read.filter(|it| (-1e6..=1e6).contains(it)) {
             Some(it) => *found = it,
-            None => wrong(value, place, "-1000000 to 1000000", "give metres and radians", sink),
+            None => value.wrong(place, "-1000000 to 1000000", "give metres and radians", sink),
         }
     }
     let [x, y, _, yaw] = at;
