@@ -197,7 +197,14 @@ impl<'t> Machine<'t> {
 
     #[inline]
     pub(crate) fn set(&mut self, node: usize, cell: usize, value: u32) {
-        self.cells[self.layout.start[node] + cell] = value;
+        let at = self.layout.start[node] + cell;
+        debug_assert!(
+            u64::from(value) < 1 << self.layout.widths[at],
+            "{value} in a cell of {} bits of {}",
+            self.layout.widths[at],
+            self.tree.shown(node)
+        );
+        self.cells[at] = value;
     }
 
     #[inline]

@@ -4,7 +4,7 @@
 //! the keys of all replies are made first, and their places in the table read one after the
 //! other: these reads wait at the same time.
 
-use super::graph::{Edge, End, WAKES, code};
+use super::graph::{Edge, End, MAX_SEQUENCES, WAKES, code};
 use super::{Seen, Space};
 use crate::machine::{Reply, Stop, Thrown};
 use crate::tree::Answer;
@@ -98,6 +98,8 @@ impl Space<'_> {
                 }
                 (target, new)
             };
+            debug_assert!((target as usize) < self.level.len(), "an edge leads to a point");
+            debug_assert!(it.events < MAX_SEQUENCES && code(it.reply) < WAKES);
             let rest = it.events << 8 | code(it.reply) | if it.wakes { WAKES } else { 0 };
             self.edges.push(Edge { target, rest });
             self.count[from] += 1;

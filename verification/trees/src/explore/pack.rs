@@ -107,6 +107,7 @@ impl Pack {
     }
 
     fn put(&mut self, field: Field, value: u64) {
+        debug_assert!(value <= field.mask, "no bit of {value} is left out");
         self.key[field.word as usize] |= (value & field.mask) << field.shift;
     }
 
@@ -117,6 +118,7 @@ impl Pack {
             machine.cells[*cell as usize] = get(*field) as u32;
         }
         let at = get(self.at) as usize;
+        debug_assert_eq!(key.len(), self.words);
         machine.at = (1..=self.asks).contains(&at).then(|| at - 1);
         machine.wake = get(self.wake) == 1;
         if let Some(field) = self.board {
