@@ -111,6 +111,12 @@ fn a_try_that_catches_already_does_not_catch_once_more() {
 }
 
 #[test]
+fn a_root_that_is_halted_catches_once_and_begins_anew() {
+    let inner = "<TryCatch catch_on_halt=\"true\"><A1/><S2/></TryCatch>";
+    assert_eq!(played(inner, &["R", "!S", "!", "R"]), ["A1:R R", "A1! S2:S H", "- H", "A1:R R"]);
+}
+
+#[test]
 fn a_timer_that_halts_a_try_lets_it_catch_before_the_next_tick() {
     let inner = "<Timeout msec=\"50\"><TryCatch catch_on_halt=\"true\"><A1/><S2/></TryCatch>\
                  </Timeout>";
