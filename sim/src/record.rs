@@ -48,6 +48,7 @@ impl Recorder for Vec<Record> {
     const WANTED: bool = true;
 
     fn record(&mut self, record: Record) {
+        debug_assert!(self.last().is_none_or(|it| it.t_us() <= record.t_us()), "time goes back");
         self.push(record);
     }
 }
