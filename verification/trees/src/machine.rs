@@ -189,24 +189,6 @@ impl<'t> Machine<'t> {
         self.cells[node] != 0
     }
 
-    /// Returns the n-th cell of a node's memory and of what it keeps within a tick.
-    #[inline]
-    pub(crate) fn get(&self, node: usize, cell: usize) -> u32 {
-        self.cells[self.layout.start[node] + cell]
-    }
-
-    #[inline]
-    pub(crate) fn set(&mut self, node: usize, cell: usize, value: u32) {
-        let at = self.layout.start[node] + cell;
-        debug_assert!(
-            u64::from(value) < 1 << self.layout.widths[at],
-            "{value} in a cell of {} bits of {}",
-            self.layout.widths[at],
-            self.tree.shown(node)
-        );
-        self.cells[at] = value;
-    }
-
     #[inline]
     pub(crate) fn child(&self, node: usize, position: usize) -> usize {
         self.tree.nodes[node].children[position]

@@ -1,5 +1,6 @@
 //! Cells of a machine: small numbers, each with the bits that it takes.
 
+use super::Machine;
 use crate::tree::{Kind, Number, Queue, Tree};
 use std::ops::Range;
 
@@ -126,5 +127,25 @@ impl Layout {
             it.halting.push(halting);
         }
         it
+    }
+}
+
+impl Machine<'_> {
+    /// Returns the n-th cell of a node's memory and of what it keeps within a tick.
+    #[inline]
+    pub(crate) fn get(&self, node: usize, cell: usize) -> u32 {
+        self.cells[self.layout.start[node] + cell]
+    }
+
+    #[inline]
+    pub(crate) fn set(&mut self, node: usize, cell: usize, value: u32) {
+        let at = self.layout.start[node] + cell;
+        debug_assert!(
+            u64::from(value) < 1 << self.layout.widths[at],
+            "{value} in a cell of {} bits of {}",
+            self.layout.widths[at],
+            self.tree.shown(node)
+        );
+        self.cells[at] = value;
     }
 }
