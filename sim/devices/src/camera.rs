@@ -1,6 +1,5 @@
 //! Cameras that find QR marks.
 
-use crate::fault::Fault;
 use crate::faults::Faults;
 use crate::scene::Scene;
 use crate::sensed::{Clock, Pipe, Rate, Sensed};
@@ -173,26 +172,15 @@ impl Camera {
             chances: (0..marks.len()).map(chance).collect(),
             frame: vec![f64::INFINITY; 2 * marks.len()],
             seen: Vec::with_capacity(marks.len()),
-            faults: Faults::none(),
+            faults: Faults::none(2 * marks.len(), it.rate.period).on_first(marks.len()),
             pipe: Pipe::new(marks.len(), nothing, it.rate)?,
         })
     }
 
-    /// Adds faults of its pictures, in place of those that it had: they are lost, frozen or late as
-    /// a whole; effects on numbers change the distances.
-    ///
-    /// # Errors
-    /// Numbers that are out of range.
-    pub fn set_faults(
-        &mut self,
-        faults: &[Fault],
-        streams: &Streams,
-        name: &str,
-    ) -> Result<(), SettingsError> {
-        let (width, period) = (self.frame.len(), self.settings.rate.period);
-        let faults = Faults::new(faults, width, period, streams, name)?;
-        self.faults = faults.on_first(self.marks.len());
-        Ok(())
+    /// Returns the faults of its pictures, to be replaced: pictures are lost, frozen or late as a
+    /// whole; effects on numbers change the distances.
+    pub fn faults(&mut self) -> &mut Faults {
+        &mut self.faults
     }
 
     /// The time of the next picture.

@@ -30,6 +30,8 @@ pub struct Faults {
     all: Vec<Active>,
     /// The most readings of a frame.
     width: usize,
+    /// The least time between two frames.
+    period: Millis,
     /// So many readings of a frame are numbers that effects change; all are frozen and late.
     numbers: usize,
 }
@@ -53,9 +55,26 @@ enum Memory {
 }
 
 impl Faults {
-    /// No faults: readings stay as they are.
-    pub fn none() -> Self {
-        Self { all: Vec::new(), width: 0, numbers: 0 }
+    /// No faults of frames of `width` readings, which come after each `period` or less often:
+    /// readings stay as they are.
+    pub fn none(width: usize, period: Millis) -> Self {
+        Self { all: Vec::new(), width, period, numbers: width }
+    }
+
+    /// Puts faults in place of those that there are, for the same frames. Random numbers are named
+    /// as by [`new`](Self::new).
+    ///
+    /// # Errors
+    /// As of `new`; the faults stay as they were.
+    pub fn replace(
+        &mut self,
+        faults: &[Fault],
+        streams: &Streams,
+        name: &str,
+    ) -> Result<(), SettingsError> {
+        let new = Self::new(faults, self.width, self.period, streams, name)?;
+        *self = new.on_first(self.numbers);
+        Ok(())
     }
 
     /// Faults of frames of `width` readings, which come after each `period` or less often. Each
@@ -84,7 +103,7 @@ impl Faults {
             Ok(Active { fault: *fault, chance, phase, memory })
         };
         let all = faults.iter().enumerate().map(active).collect::<Result<_, _>>()?;
-        Ok(Self { all, width, numbers: width })
+        Ok(Self { all, width, period, numbers: width })
     }
 
     /// Returns faults whose effects on numbers change only so many readings of each frame; as a

@@ -1,6 +1,5 @@
 //! Gyros.
 
-use crate::fault::Fault;
 use crate::faults::Faults;
 use crate::sensed::{Clock, Pipe, Rate, Sensed};
 use crate::settings::{SettingsError, within};
@@ -40,7 +39,6 @@ pub struct GyroSettings {
 pub struct Gyro {
     bias: f64,
     noise: f64,
-    period: Millis,
     clock: Clock,
     stream: Stream,
     faults: Faults,
@@ -63,22 +61,12 @@ impl Gyro {
         let mut stream = streams.stream(name);
         let bias = stream.error() * bias;
         let (clock, pipe) = (Clock::new(rate.period), Pipe::new(1, 0.0, rate)?);
-        let period = rate.period;
-        Ok(Self { bias, noise, period, clock, stream, faults: Faults::none(), pipe })
+        Ok(Self { bias, noise, clock, stream, faults: Faults::none(1, rate.period), pipe })
     }
 
-    /// Adds faults of its readings, in place of those that it had.
-    ///
-    /// # Errors
-    /// Numbers that are out of range.
-    pub fn set_faults(
-        &mut self,
-        faults: &[Fault],
-        streams: &Streams,
-        name: &str,
-    ) -> Result<(), SettingsError> {
-        self.faults = Faults::new(faults, 1, self.period, streams, name)?;
-        Ok(())
+    /// Returns the faults of its readings, to be replaced.
+    pub fn faults(&mut self) -> &mut Faults {
+        &mut self.faults
     }
 
     /// Takes a reading if one is due, of a robot that turns so fast, in rad/s to the left.
@@ -102,7 +90,7 @@ impl Gyro {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fault::Mode;
+    use crate::fault::{Fault, Mode};
 
     const RATE: Rate = Rate { period: Millis(100), latency: Millis(0) };
 
@@ -112,7 +100,7 @@ mod tests {
         let streams = Streams::new(3);
         let mut gyro = Gyro::new(&settings, &streams, "gyro").unwrap();
         let drift = Fault::new(Mode::Drift { per_s: 0.01, most: 0.02 }).unwrap();
-        gyro.set_faults(&[drift.from(Millis(1_000))], &streams, "gyro").unwrap();
+        gyro.faults().replace(&[drift.from(Millis(1_000))], &streams, "gyro").unwrap();
         let read = |gyro: &mut Gyro, now: u64| {
             gyro.sense(Millis(now), 0.0);
             gyro.latest(Millis(now)).unwrap()
@@ -122,7 +110,7 @@ mod tests {
             [0.0, 0.0, 0.01, 0.02]
         );
         let dead = Fault::new(Mode::DropOut(1.0)).unwrap();
-        gyro.set_faults(&[dead], &streams, "gyro").unwrap();
+        gyro.faults().replace(&[dead], &streams, "gyro").unwrap();
         assert_eq!(read(&mut gyro, 9_500).taken, Millis(9_000));
     }
 }

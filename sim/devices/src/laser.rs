@@ -1,6 +1,5 @@
 //! Laser scanners.
 
-use crate::fault::Fault;
 use crate::faults::Faults;
 use crate::scene::Scene;
 use crate::sensed::{Clock, Pipe, Rate, Sensed};
@@ -90,7 +89,6 @@ pub struct Laser {
     least_m: f64,
     range_m: f64,
     noise_m: f64,
-    rate: Rate,
     clock: Clock,
     /// The ways of the rays as the scanner sees them.
     ways: Vec<Vector>,
@@ -123,30 +121,19 @@ impl Laser {
             least_m,
             range_m,
             noise_m,
-            rate,
             clock: Clock::new(rate.period),
             rays: vec![Ray { from: Point::origin(), along: Vector::x() }; rays],
             ranges: vec![f64::INFINITY; rays],
             ways,
             noise: streams.stream(name),
-            faults: Faults::none(),
+            faults: Faults::none(rays, rate.period),
             pipe: Pipe::new(rays, f64::INFINITY, rate)?,
         })
     }
 
-    /// Adds faults of its ranges, in place of those that it had.
-    ///
-    /// # Errors
-    /// Numbers that are out of range.
-    pub fn set_faults(
-        &mut self,
-        faults: &[Fault],
-        streams: &Streams,
-        name: &str,
-    ) -> Result<(), SettingsError> {
-        let (width, period) = (self.ways.len(), self.rate.period);
-        self.faults = Faults::new(faults, width, period, streams, name)?;
-        Ok(())
+    /// Returns the faults of its ranges, to be replaced.
+    pub fn faults(&mut self) -> &mut Faults {
+        &mut self.faults
     }
 
     /// The time of the next scan.

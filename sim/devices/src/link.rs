@@ -1,6 +1,5 @@
 //! Radio links.
 
-use crate::fault::Fault;
 use crate::faults::Faults;
 use crate::sensed::{Clock, Pipe, Rate, Sensed};
 use crate::settings::{SettingsError, within};
@@ -106,25 +105,16 @@ impl Link {
             access_points: access_points.to_vec(),
             clock: Clock::new(settings.rate.period),
             noise: streams.stream(name),
-            faults: Faults::none(),
+            faults: Faults::none(1, settings.rate.period),
             pipe: Pipe::new(1, 0.0, settings.rate)?,
         })
     }
 
-    /// Adds faults of its level, in place of those that it had; [`Mode::fading`] is one.
+    /// Returns the faults of its level, to be replaced; [`Mode::fading`] is one.
     ///
     /// [`Mode::fading`]: crate::Mode::fading
-    ///
-    /// # Errors
-    /// Numbers that are out of range.
-    pub fn set_faults(
-        &mut self,
-        faults: &[Fault],
-        streams: &Streams,
-        name: &str,
-    ) -> Result<(), SettingsError> {
-        self.faults = Faults::new(faults, 1, self.settings.rate.period, streams, name)?;
-        Ok(())
+    pub fn faults(&mut self) -> &mut Faults {
+        &mut self.faults
     }
 
     /// The time of the next measurement.

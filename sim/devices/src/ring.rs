@@ -155,8 +155,6 @@ pub struct Ring {
     sonars: Vec<Sonar>,
     banks: usize,
     settings: Sound,
-    /// Time of a sweep.
-    sweep: Millis,
     clock: Clock,
     /// How often a sonar of each bank has fired.
     fired: usize,
@@ -202,14 +200,14 @@ impl Ring {
         name: &str,
     ) -> Result<Self, SettingsError> {
         settings.check()?;
+        let (count, banks) = (settings.mounts.len(), settings.banks);
+        let sweep = Millis(settings.rate.period.0.saturating_mul((count / banks) as u64));
         let sonar = |(at, mount): (usize, &Pose)| Sonar {
             mount: *mount,
             chance: streams.stream(&format!("{name} {at}")),
-            faults: Faults::none(),
+            faults: Faults::none(1, sweep),
         };
         let sonars: Vec<_> = settings.mounts.iter().enumerate().map(sonar).collect();
-        let (count, banks) = (sonars.len(), settings.banks);
-        let sweep = Millis(settings.rate.period.0.saturating_mul((count / banks) as u64));
         let from = settings.mounts.iter().map(|it| it.translation.vector.norm());
         let ray = Ray { from: Point::origin(), along: Vector::x() };
         Ok(Self {
@@ -223,7 +221,6 @@ impl Ring {
                 never: libm::cos(settings.mirror_rad),
                 cross_talk: settings.cross_talk,
             },
-            sweep,
             clock: Clock::new(settings.rate.period),
             fired: 0,
             reach: from.fold(0.0, f64::max),
@@ -248,11 +245,8 @@ impl Ring {
         name: &str,
     ) -> Result<(), SettingsError> {
         within("the sonar", sonar as f64, 0.0, self.sonars.len().saturating_sub(1) as f64)?;
-        let faults = Faults::new(faults, 1, self.sweep, streams, &format!("{name} {sonar}"))?;
-        if let Some(sonar) = self.sonars.get_mut(sonar) {
-            sonar.faults = faults;
-        }
-        Ok(())
+        let Some(it) = self.sonars.get_mut(sonar) else { return Ok(()) };
+        it.faults.replace(faults, streams, &format!("{name} {sonar}"))
     }
 
     /// The time at which the next sonars fire.

@@ -33,6 +33,6 @@ pub(crate) fn harm(gyro: &mut Gyro, harms: &[Harmed], now: Millis, streams: Stre
     let modes = harms.iter().filter_map(mode);
     let faults: Vec<_> =
         modes.filter_map(|it| Fault::new(it).ok()).map(|it| it.from(now)).collect();
-    let set = gyro.set_faults(&faults, &streams, "gyro");
+    let set = gyro.faults().replace(&faults, &streams, "gyro");
     debug_assert!(set.is_ok(), "faults of a turn");
 }

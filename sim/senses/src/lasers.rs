@@ -135,7 +135,7 @@ impl Lasers {
             let modes = harms.iter().filter(own).filter_map(mode);
             let faults: Vec<_> =
                 modes.filter_map(|it| Fault::new(it).ok()).map(|it| it.from(now)).collect();
-            let set = it.laser.set_faults(&faults, &streams, &it.name);
+            let set = it.laser.faults().replace(&faults, &streams, &it.name);
             debug_assert!(set.is_ok(), "faults of ranges");
         }
     }

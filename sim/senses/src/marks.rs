@@ -70,7 +70,7 @@ impl Marks {
         self.is_covered = has(Harm::MarksCovered);
         let silent = Fault::new(Mode::DropOut(1.0)).ok().filter(|_| has(Harm::CameraSilent));
         let faults: Vec<_> = silent.into_iter().map(|it| it.from(now)).collect();
-        let set = self.camera.set_faults(&faults, &streams, "marks");
+        let set = self.camera.faults().replace(&faults, &streams, "marks");
         debug_assert!(set.is_ok(), "faults of pictures");
     }
 

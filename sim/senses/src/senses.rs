@@ -220,7 +220,7 @@ impl<'b> Senses<'b> {
             _ => None,
         };
         let fades: Vec<_> = harms.iter().filter_map(fades).collect();
-        let set = self.link.set_faults(&fades, &self.streams, "link");
+        let set = self.link.faults().replace(&fades, &self.streams, "link");
         debug_assert!(set.is_ok(), "faults of a level");
         for sonar in 0..16 {
             let faults = sonar_faults(harms, sonar, rover.now());

@@ -56,6 +56,17 @@ pub(crate) enum Move {
     Idle,
 }
 
+/// Outcome of a node's part of a tick.
+type Step = Result<Move, Fault>;
+
+fn answer(it: Answer) -> Step {
+    Ok(Move::Answer(it))
+}
+
+fn child(at: usize) -> Step {
+    Ok(Move::Child(at))
+}
+
 /// Point from which a tick goes on.
 enum Cursor {
     Enter(usize),

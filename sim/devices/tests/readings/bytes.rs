@@ -29,9 +29,9 @@ fn digest(seed: u64) -> u64 {
     let drift = Fault::new(Mode::Drift { per_s: 0.01, most: 0.2 }).unwrap();
     let loose = Fault::new(Mode::DropOut(0.5)).unwrap();
     let loose = loose.intermittent(Millis(400), Millis(900)).unwrap();
-    laser.set_faults(&[drift, loose], &streams, "laser").unwrap();
+    laser.faults().replace(&[drift, loose], &streams, "laser").unwrap();
     let fading = Fault::new(Mode::fading(30.0, Millis(20_000))).unwrap();
-    link.set_faults(&[fading], &streams, "wifi").unwrap();
+    link.faults().replace(&[fading], &streams, "wifi").unwrap();
 
     let mut bytes = Vec::new();
     let mut write = |it: f64| bytes.extend(it.to_bits().to_le_bytes());

@@ -86,7 +86,7 @@ fn a_mark_is_found_more_seldom_the_further_it_is() {
 fn a_frozen_picture_shows_a_mark_that_is_no_more_there() {
     let (floor, mut camera) = (hall(None), camera());
     let frozen = Fault::new(Mode::Frozen).unwrap().from(Millis(33));
-    camera.set_faults(&[frozen], &Streams::new(7), "camera").unwrap();
+    camera.faults().replace(&[frozen], &Streams::new(7), "camera").unwrap();
     let mut count = |now: u64, heading| {
         let pose = Pose::new([3.5, 0.0].into(), heading);
         camera.sense(Millis(now), &pose, 0.0, &Scene::of(&floor, &[]));

@@ -160,8 +160,8 @@ fn run(seed: u64, hall: &Hall, faults: &[Fault], are_there: [bool; 3]) -> [Vec<u
     let mut laser = Laser::new(&LaserSettings::hokuyo_urg(16), &streams, "laser").unwrap();
     let mut ring = Ring::new(&RingSettings::pioneer(), &streams, "sonar").unwrap();
     let mut link = Link::new(&LinkSettings::wifi(), &[Point::origin()], &streams, "wifi").unwrap();
-    laser.set_faults(faults, &streams, "laser").unwrap();
-    link.set_faults(faults, &streams, "wifi").unwrap();
+    laser.faults().replace(faults, &streams, "laser").unwrap();
+    link.faults().replace(faults, &streams, "wifi").unwrap();
     for sonar in 0..16 {
         ring.set_faults(sonar, faults, &streams, "sonar").unwrap();
     }

@@ -61,7 +61,7 @@ fn a_robot_hears_the_best_access_point() {
 fn a_link_that_fades_loses_its_level_in_time_and_for_good() {
     let mut link = Link::new(&quiet(), &[Point::origin()], &Streams::new(7), "wifi").unwrap();
     let fading = Fault::new(Mode::fading(30.0, Millis(10_000))).unwrap().from(Millis(1_000));
-    link.set_faults(&[fading], &Streams::new(7), "wifi").unwrap();
+    link.faults().replace(&[fading], &Streams::new(7), "wifi").unwrap();
     let mut level = |now: u64| {
         link.sense(Millis(now), Point::new(0.5, 0.5), &hall());
         link.latest(Millis(now)).unwrap().value

@@ -1,10 +1,8 @@
 //! Nodes that somebody steers from outside: a menu of children, and services that pause a tree.
 
-use super::{Fault, Machine, Move, Question, Reply, Status, fault, words};
+use super::{Fault, Machine, Move, Question, Reply, Status, Step, fault, words};
 use crate::machine::How;
 use crate::tree::Answer;
-
-type Step = Result<Move, Fault>;
 
 /// Cells of a menu: the child that ran last, and what was chosen last, from 1; after the children
 /// come SUCCESS, FAILURE, RUNNING.

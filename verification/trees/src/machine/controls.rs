@@ -1,19 +1,9 @@
 //! Control nodes of the library.
 
 use super::parallel::{enter_parallel, enter_parallel_all, parallel, parallel_all};
-use super::{Fault, Machine, Move, Status, choices, fault};
+use super::{Machine, Move, Status, Step, answer, child, choices, fault};
 use crate::script::same;
 use crate::tree::{Answer, Kind, Port};
-
-type Step = Result<Move, Fault>;
-
-fn answer(it: Answer) -> Step {
-    Ok(Move::Answer(it))
-}
-
-fn child(at: usize) -> Step {
-    Ok(Move::Child(at))
-}
 
 /// Begins the tick of a control node; `None` if the node is none of the library.
 pub(super) fn enter(m: &mut Machine, node: usize, kind: &Kind) -> Option<Step> {

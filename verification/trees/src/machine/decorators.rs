@@ -1,15 +1,9 @@
 //! Decorators of the library and of Nav2.
 
-use super::{Fault, Machine, Move, Status, fault, queues};
+use super::{Fault, Machine, Move, Status, Step, answer, fault, queues};
 use crate::tree::{Answer, Gate, Kind, Number};
 
-type Step = Result<Move, Fault>;
-
 const CHILD: Step = Ok(Move::Child(0));
-
-fn answer(it: Answer) -> Step {
-    Ok(Move::Answer(it))
-}
 
 /// Begins the tick of a decorator; `None` if the node is none.
 pub(super) fn enter(m: &mut Machine, node: usize, kind: &Kind) -> Option<Step> {

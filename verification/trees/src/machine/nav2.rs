@@ -1,18 +1,8 @@
 //! Control nodes of Nav2.
 
-use super::{Fault, Machine, Move, Status, choices, fault};
+use super::{Machine, Status, Step, answer, child, choices, fault};
 use crate::script::Value;
 use crate::tree::{Answer, Kind, Number};
-
-type Step = Result<Move, Fault>;
-
-fn answer(it: Answer) -> Step {
-    Ok(Move::Answer(it))
-}
-
-fn child(at: usize) -> Step {
-    Ok(Move::Child(at))
-}
 
 /// Begins the tick of a control node of Nav2; `None` if the node is none.
 pub(super) fn enter(m: &mut Machine, node: usize, kind: &Kind) -> Option<Step> {

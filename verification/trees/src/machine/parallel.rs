@@ -1,17 +1,7 @@
 //! Parallel nodes: thresholds over children that end at different ticks.
 
-use super::{Fault, Machine, Move, Status, fault};
+use super::{Fault, Machine, Status, Step, answer, child, fault};
 use crate::tree::{Answer, Number};
-
-type Step = Result<Move, Fault>;
-
-fn answer(it: Answer) -> Step {
-    Ok(Move::Answer(it))
-}
-
-fn child(at: usize) -> Step {
-    Ok(Move::Child(at))
-}
 
 /// Returns a threshold: below 0 it counts from the end.
 fn threshold(limit: i64, children: usize) -> i64 {

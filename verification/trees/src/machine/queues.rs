@@ -1,10 +1,8 @@
 //! Loops over a queue: constants, a text on the blackboard, or what the world put there.
 
-use super::{Fault, Machine, Move, Status, fault};
+use super::{Fault, Machine, Move, Status, Step, fault};
 use crate::script::{Value, number_of};
 use crate::tree::{Answer, EntryType, Queue};
-
-type Step = Result<Move, Fault>;
 
 /// Cells: next item, or the number of the text that is left; the child runs.
 const AT: usize = 0;
